@@ -5,6 +5,7 @@
 #include "music/held_ending.h"
 #include "music/score/glides.h"
 #include "music/score/note_order.h"
+#include "music/score/spelling.h"
 
 #include <fmt/format.h>
 
@@ -196,20 +197,17 @@ public:
         return report_;
     }
 
-    std::vector<SectionChange> changes() {
+    std::vector<SectionStart> sections() {
         read();
         repeat();
-        std::vector<SectionChange> changes;
+        std::vector<SectionStart> starts;
         std::int64_t at = 0;
-        TempoAndMeter before = ensemble_.tempo_and_meter(0);
         for (const FormSection& section : ensemble_.form) {
             const auto letter = static_cast<char>('A' + section.letter);
-            const TempoAndMeter next = ensemble_.of_section(letter);
-            if (at > 0 && next != before) changes.push_back({at, next});
-            before = next;
+            starts.push_back({at > 0 ? at + ensemble_.upbeat : 0, letter});
             at += section_length(letter);
         }
-        return changes;
+        return starts;
     }
 
 private:
@@ -518,8 +516,19 @@ TempoAndMeter Ensemble::of_section(char section) const {
     return result;
 }
 
-std::vector<SectionChange> section_changes(const Ensemble& ensemble, const PlayOptions& whole) {
-    return ensemble.section_tempos.empty() ? std::vector<SectionChange>() : WholeScore(ensemble, whole).changes();
+std::vector<SectionStart> section_starts(const Ensemble& ensemble, const PlayOptions& whole) {
+    return WholeScore(ensemble, whole).sections();
+}
+
+std::vector<SectionChange> section_changes(const Ensemble& ensemble) {
+    std::vector<SectionChange> changes;
+    TempoAndMeter before = ensemble.tempo_and_meter(0);
+    for (const SectionStart& start : ensemble.sections) {
+        const TempoAndMeter next = ensemble.of_section(start.section);
+        if (start.onset > 0 && next != before) changes.push_back({start.onset, next});
+        before = next;
+    }
+    return changes;
 }
 
 bool Ensemble::needs_whole() const {
@@ -550,6 +559,14 @@ bool Ensemble::has_glides() const {
 
 bool Ensemble::has_ending(const PlayOptions& playing) const {
     return close != Close::none && (!playing.is_excerpt() || ends_excerpts);
+}
+
+bool Ensemble::has_several_keys() const {
+    const auto key_of = [](const Player& player) {
+        return key_signature(player.melody.scale, player.melody.tonic_spelling);
+    };
+    return std::any_of(players.begin(), players.end(),
+                       [&](const Player& player) { return key_of(player) != key_of(players.front()); });
 }
 
 bool Ensemble::has_tempo_ratio() const {

@@ -13,6 +13,12 @@
 
 namespace sikku {
 
+/// Where a section of the score begins.
+struct SectionStart {
+    std::int64_t onset = 0;  ///< ticks; after the upbeat, except for the first section
+    char section = 'A';
+};
+
 /// The parts of a score, with the tempo and meter with which it begins.
 struct Ensemble {
     std::vector<Player> players;
@@ -23,6 +29,7 @@ struct Ensemble {
     std::int64_t upbeat = 0;                        ///< ticks before the first bar line; 0: it begins at a bar line
     TempoAndMeter piece{};                          ///< those of sections that state none
     std::map<char, SectionTempo> section_tempos{};  ///< tempo and meter of sections that state them
+    std::vector<SectionStart> sections{};           ///< of the form, ascending, if they are known
     std::vector<SectionChange> changes{};           ///< of tempo and meter, at the bar lines where sections begin
     Close close = Close::none;
     bool ends_excerpts = false;  ///< excerpts end with `close`, too, not only the whole
@@ -54,6 +61,8 @@ struct Ensemble {
     bool has_glides() const;
     /// True if a part has a tempo of its own.
     bool has_tempo_ratio() const;
+    /// True if the key signatures of two parts differ.
+    bool has_several_keys() const;
 };
 
 /// Report about playing all parts.
@@ -68,9 +77,12 @@ struct EnsembleReport : PlayReport {
     bool has_own_ranges = false;
 };
 
-/// Lists the changes of tempo and meter between sections. If a section states either, reads all parts, because their
-/// lengths determine where sections begin. @param whole  the whole score. @throws as play_all()
-std::vector<SectionChange> section_changes(const Ensemble& ensemble, const PlayOptions& whole);
+/// Lists where the sections of the form begin. Reads all parts, because their lengths determine it.
+/// @param whole  the whole score. @throws as play_all()
+std::vector<SectionStart> section_starts(const Ensemble& ensemble, const PlayOptions& whole);
+
+/// Lists the changes of tempo and meter between the sections that are known.
+std::vector<SectionChange> section_changes(const Ensemble& ensemble);
 
 /// The requested piece, in ticks. @throws SettingError
 PlayOptions piece_of(const PlaySettings& options, const Ensemble& ensemble, const Monitor& monitor);

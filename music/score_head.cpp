@@ -8,6 +8,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -107,6 +110,22 @@ void add_parts(Player& player, const PlayOptions& playing, VoiceCount& voices, s
     parts.push_back(drum_part(is_drums_alone ? player.name : "", part.voices, part.has_chords, part.swing));
 }
 
+/// The keys of the sections within a piece.
+/// @param keys  of the first pitched part of each section; 0: of those that play from the beginning
+std::vector<KeyChange> section_keys(const Ensemble& ensemble, const PlayOptions& playing,
+                                    const std::map<char, std::optional<KeySignature>>& keys) {
+    std::vector<KeyChange> result;
+    for (const SectionStart& start : ensemble.sections) {
+        if (start.onset >= playing.to) break;
+        auto key = keys.find(start.section);
+        if (key == keys.end()) key = keys.find(0);
+        if (start.onset <= playing.from) result.clear();
+        result.push_back(
+            {std::max<std::int64_t>(0, start.onset - playing.from), key == keys.end() ? std::nullopt : key->second});
+    }
+    return result;
+}
+
 }  // namespace
 
 ScoreHead head_of(const PlaySettings& settings, Ensemble& ensemble, const Arrangement* arrangement,
@@ -142,11 +161,16 @@ ScoreHead head_of(const PlaySettings& settings, Ensemble& ensemble, const Arrang
         counting.to = INT64_MAX;
     }
     std::vector<std::string> titles;
+    std::map<char, std::optional<KeySignature>> keys;  // by section
     VoiceCount voices;
     for (Player& player : ensemble.players) {
         if (!player.is_bass) add_texts(player, titles, head);
+        const std::size_t first_part = head.parts.size();
         add_parts(player, counting, voices, head.parts);
+        const Part& own = head.parts[first_part];
+        if (!own.is_drums) keys.try_emplace(player.section, own.key);
     }
+    head.keys = section_keys(ensemble, playing, keys);
     if (voices.pitched > most) {
         throw ScoreError(
             fmt::format("too many voices: {} at once; {} need a MIDI channel for each voice; there are {} besides "

@@ -102,12 +102,14 @@ public:
     }
 
 private:
-    /// Sets the changes of tempo and meter. @return the requested piece
-    PlayOptions begin(const Monitor& monitor) {
-        if (!ensemble_.section_tempos.empty()) {
+    /// Sets the sections, and the changes of tempo and meter, if they are needed. @return the requested piece
+    PlayOptions begin(const Monitor& monitor, bool needs_keys = false) {
+        const bool changes_key = needs_keys && !ensemble_.form.empty() && ensemble_.has_several_keys();
+        if (!ensemble_.section_tempos.empty() || changes_key) {
             PlaySettings whole;
             whole.budget = settings_.budget;
-            ensemble_.changes = section_changes(ensemble_, piece_of(whole, ensemble_, monitor));
+            ensemble_.sections = section_starts(ensemble_, piece_of(whole, ensemble_, monitor));
+            ensemble_.changes = section_changes(ensemble_);
         }
         return piece_of(settings_, ensemble_, monitor);
     }
@@ -401,7 +403,7 @@ Made ScoreWork::make(Destination& destination, const std::filesystem::path& name
             made.warn(ensemble_.players.size() > 1 ? fmt::format("{}: {}", pattern, no_steps) : no_steps);
     }
     warn_of_unused(made);
-    const PlayOptions playing = begin(monitor);
+    const PlayOptions playing = begin(monitor, writer_.medium == ScoreMedium::midi);
     monitor.expect(0);
     check_size(playing);
     const bool is_mpe = midi_.tuning == Tuning::mpe;

@@ -43,6 +43,24 @@ void check_head(const ScoreHead& head) {
             throw ScoreError(fmt::format("part '{}': a key signature of {} fifths", part.name, part.key->fifths));
         }
     }
+    for (const KeyChange& change : head.keys) {
+        if (change.key && (change.key->fifths < -7 || change.key->fifths > 7))
+            throw ScoreError(fmt::format("a key signature of {} fifths", change.key->fifths));
+    }
+}
+
+/// The key with which a score begins: that of the first section or, without sections, of the first pitched part.
+std::optional<KeySignature> first_key(const ScoreHead& head) {
+    if (!head.keys.empty()) return head.keys.front().key;
+    const auto part =
+        std::find_if(head.parts.begin(), head.parts.end(), [](const Part& one) { return !one.is_drums; });
+    return part == head.parts.end() ? std::nullopt : part->key;
+}
+
+/// A section without a key has no signs.
+std::string key_bytes(const std::optional<KeySignature>& key) {
+    const KeySignature signature = key.value_or(KeySignature{});
+    return {static_cast<char>(signature.fifths), static_cast<char>(signature.minor)};
 }
 
 /// The meter of a bar of some ticks, a multiple of 30, in a meter.
@@ -65,7 +83,8 @@ std::string meter_bytes(const Meter& meter) {
 }  // namespace
 
 std::string ConductorChange::event() const {
-    return meter ? meta(meter_type, meter_bytes(*meter)) : meta(tempo_type, big_endian(micro, 3));
+    if (meter) return meta(meter_type, meter_bytes(*meter));
+    return key ? meta(key_type, key_bytes(key->key)) : meta(tempo_type, big_endian(micro, 3));
 }
 
 Conductor::Conductor(const ScoreHead& head, const Curves* curves, bool is_mpe) : head_(&head), curves_(curves) {
@@ -83,10 +102,7 @@ std::string Conductor::make_opening(bool is_mpe) const {
     bytes += meta_now(tempo_type, big_endian(static_cast<std::uint64_t>(micro), 3));
     const bool has_upbeat = head_->upbeat > 0;
     bytes += meta_now(meter_type, meter_bytes(has_upbeat ? short_meter(head_->upbeat, head_->meter) : head_->meter));
-    if (!head_->parts.empty() && head_->parts.front().key) {
-        const KeySignature key = *head_->parts.front().key;
-        bytes += meta_now(key_type, std::string{static_cast<char>(key.fifths), static_cast<char>(key.minor)});
-    }
+    if (const auto key = first_key(*head_)) bytes += meta_now(key_type, key_bytes(key));
     if (is_mpe) bytes += messages_now(mpe_setup());
     return bytes;
 }
@@ -116,17 +132,22 @@ std::vector<ConductorChange> Conductor::changes(std::int64_t end) const {
         if (!is_late) last = point.tick;
         result.push_back({last, static_cast<std::uint32_t>(std::min(std::round(60e6 / tempo), 0x1p24 - 1))});
     }
-    const auto add_meter = [&](std::int64_t onset, const Meter& meter) {
+    const auto insert = [&](const ConductorChange& change) {
         const auto after =
-            std::upper_bound(result.begin(), result.end(), onset,
+            std::upper_bound(result.begin(), result.end(), change.tick,
                              [](std::int64_t tick, const ConductorChange& other) { return tick < other.tick; });
-        result.insert(after, {onset, 0, &meter});
+        result.insert(after, change);
     };
-    if (head_->upbeat > 0) add_meter(std::min(head_->upbeat, end), head_->meter);
+    if (head_->upbeat > 0) insert({std::min(head_->upbeat, end), 0, &head_->meter});
     const Meter* before = &head_->meter;
     for (const SectionChange& change : head_->changes) {
         const Meter& meter = change.to.meter;
-        if (meter != *std::exchange(before, &meter)) add_meter(change.onset, meter);
+        if (meter != *std::exchange(before, &meter)) insert({change.onset, 0, &meter});
+    }
+    std::string key = key_bytes(first_key(*head_));
+    for (const KeyChange& change : head_->keys) {
+        if (key_bytes(change.key) != std::exchange(key, key_bytes(change.key)))
+            insert({change.onset, 0, nullptr, &change});
     }
     return result;
 }

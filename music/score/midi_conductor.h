@@ -10,11 +10,12 @@
 
 namespace sikku::midi {
 
-/// A change of tempo or of meter.
+/// A change of tempo, of meter or of key.
 struct ConductorChange {
     std::int64_t tick;
-    std::uint32_t micro = 0;       ///< microseconds a quarter
-    const Meter* meter = nullptr;  ///< the new meter, owned by the head; null for a change of tempo
+    std::uint32_t micro = 0;         ///< microseconds a quarter
+    const Meter* meter = nullptr;    ///< the new meter, owned by the head
+    const KeyChange* key = nullptr;  ///< the new key, owned by the head; both null for a change of tempo
 
     /// The event without its delta.
     std::string event() const;
@@ -28,7 +29,7 @@ public:
 
     /// The events at the beginning of the track, all at tick 0.
     const std::string& opening() const { return opening_; }
-    /// Changes of tempo and meter after the beginning, by tick.
+    /// Changes of tempo, meter and key after the beginning, by tick.
     std::vector<ConductorChange> changes(std::int64_t end) const;
     /// The bytes that end the track. Their number is the same for every `end` if `last` is.
     /// @param last  the delta of the end of the track if nothing changes

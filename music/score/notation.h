@@ -130,12 +130,6 @@ struct Staff {
 /// Sign that joins the staves of a part at the left.
 enum class Bracket { none, brace, bracket };
 
-/// A key signature from a bar line on.
-struct KeyChange {
-    std::int64_t onset = 0;
-    std::optional<KeySignature> key;  ///< nullopt: no signs
-};
-
 /// A chord named above the staff from a tick on.
 struct ChordMark {
     std::int64_t onset = 0;

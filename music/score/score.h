@@ -154,6 +154,13 @@ struct KeySignature {
     int fifths = 0;
     bool minor = false;
     Mode mode = minor ? Mode::minor : Mode::major;
+    bool operator==(const KeySignature&) const = default;
+};
+
+/// A key signature from a bar line on.
+struct KeyChange {
+    std::int64_t onset = 0;           ///< ticks
+    std::optional<KeySignature> key;  ///< nullopt: no signs
 };
 
 /// Off-beats that come late.
@@ -218,8 +225,9 @@ struct ScoreHead {
     Meter meter;
     std::int64_t upbeat = 0;             ///< ticks before the first bar line, less than a bar; 0: none
     std::vector<SectionChange> changes;  ///< of tempo and meter, ascending, after the beginning
-    std::int64_t first_bar = 1;          ///< number of the first bar; that of an upbeat is one less
-    bool is_transposed = false;  ///< print: parts of transposing instruments are written as their players read them
+    std::vector<KeyChange> keys;  ///< in MIDI: of sections, ascending, the first at 0; empty: that of the first part
+    std::int64_t first_bar = 1;   ///< number of the first bar; that of an upbeat is one less
+    bool is_transposed = false;   ///< print: parts of transposing instruments are written as their players read them
     Syllables syllables = Syllables::none;  ///< print: under the notes
     bool has_chord_signs = false;           ///< print: chords are named above the first staff
     bool has_graces = false;                ///< print: gamakas are grace notes
