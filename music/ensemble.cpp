@@ -31,14 +31,15 @@ Ratio to_score(const Player& player) {
 /// Forwards the notes of one part, as voices after those of the parts before it, but not finish().
 class PartSink : public NoteSink {
 public:
-    /// @param later  ticks added to every onset, after `ratio`
-    PartSink(NoteSink& sink, int first_voice, std::int64_t later, Ratio ratio)
-        : sink_(sink), first_voice_(first_voice), later_(later), ratio_(ratio) {}
+    /// @param later  ticks added to every onset, after the change of tempo
+    PartSink(NoteSink& sink, const Player& player, std::int64_t later)
+        : sink_(sink), player_(player), later_(later), ratio_(to_score(player)) {}
     void notes(std::span<const Note> notes) override {
-        if (first_voice_ == 0 && later_ == 0 && ratio_.is_one()) return sink_.notes(notes);
+        if (player_.first_voice == 0 && later_ == 0 && ratio_.is_one()) return sink_.notes(notes);
         moved_.assign(notes.begin(), notes.end());
         for (Note& note : moved_) {
-            note.voice = static_cast<std::int16_t>(note.voice + first_voice_);
+            note.voice = static_cast<std::int16_t>(note.voice + player_.first_voice);
+            note.begins_phrase = note.begins_phrase && !player_.is_follower;
             scale_times(note, ratio_);
             note.onset += later_;
         }
@@ -48,7 +49,7 @@ public:
 
 private:
     NoteSink& sink_;
-    int first_voice_;
+    const Player& player_;
     std::int64_t later_;
     Ratio ratio_;
     std::vector<Note> moved_;
@@ -88,7 +89,7 @@ EnsembleReport stream(const Ensemble& ensemble, const PlayOptions& playing, Note
         std::uint64_t& moved = all.moved_of.emplace_back();
         const std::int64_t start = start_of(player, ensemble.meter, ensemble);
         const std::int64_t later = std::max<std::int64_t>(0, start - playing.from);
-        PartSink part(sink, player.first_voice, later, to_score(player));
+        PartSink part(sink, player, later);
         PlayOptions options = playing;
         options.drums_from = player.drums_from;
         options.chords_from = player.chords_from;
@@ -416,6 +417,7 @@ private:
             if (std::max(note.onset, playing_.from) >= std::min(note.onset + note.duration, playing_.to)) continue;
             cut(note, playing_.from, playing_.to);
             note.onset -= playing_.from;
+            note.begins_phrase = note.begins_phrase && !part.player->is_follower;
             if (!is_drum(part, one)) {
                 report_.lowest = std::min(report_.lowest, note.key);
                 report_.highest = std::max(report_.highest, note.key);

@@ -127,6 +127,7 @@ void turn_glides(std::vector<FormNote>& notes) {
             alone.note.from = alone.note.to = {note.to.x, note.to.y + static_cast<double>(glide.rise)};
             alone.note.glide = back;
             alone.note.is_sliding = back.semitones != 0;
+            alone.note.begins_phrase = false;
             alone.has_degree = false;
             added.push_back(alone);
         }
@@ -135,6 +136,17 @@ void turn_glides(std::vector<FormNote>& notes) {
     notes.erase(
         std::remove_if(notes.begin(), notes.end(), [](const FormNote& one) { return one.note.duration == 0; }),
         notes.end());
+}
+
+/// Makes phrases begin with their last notes.
+void turn_phrases(std::vector<FormNote>& notes) {
+    for (const auto& [voice, line] : voices_of(notes)) {
+        bool is_last =
+            std::any_of(line.begin(), line.end(), [](const FormNote* one) { return one->note.begins_phrase; });
+        for (auto one = line.rbegin(); one != line.rend(); ++one) {
+            is_last = std::exchange((*one)->note.begins_phrase, is_last);
+        }
+    }
 }
 
 /// @param block  to which the note belongs
@@ -348,6 +360,7 @@ void land(Block& piece, const Melody& melody) {
     const auto period = static_cast<std::int64_t>(melody.scale.size());
     goal.degree = mapping::goal_near(last->degree, 0, period, bounds_of(melody), melody.answer);
     goal.note.key = key_within(melody, goal.degree, goal.degree < last->degree);
+    goal.note.begins_phrase = false;
     goal.note.onset = piece.length;
     goal.note.duration = melody.meter.bar();
     goal.note.glide = {};
@@ -471,6 +484,7 @@ void link_glides(std::vector<FormNote>& notes) {
 }
 
 void reverse(Block& block) {
+    turn_phrases(block.notes);
     turn_glides(block.notes);
     for (FormNote& one : block.notes) {
         one.note.onset = block.length - one.note.onset - one.note.duration;

@@ -82,6 +82,7 @@ public:
             is_counted_ = false;
             level_ = 0;  // known from the mark after the stretch
             walk_.skip(at_, stretch);
+            emitter_.skip();
             here_ = point(at_);
             time_ += length.convert_to<std::int64_t>();
             return true;

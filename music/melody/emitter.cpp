@@ -144,6 +144,8 @@ void Emitter::put(const Shaper::Draft& draft, const Placed& placed, int voice, s
               static_cast<std::uint8_t>(std::min(draft.depth, 255)),
               static_cast<std::uint8_t>(draft.level),
               glide.semitones != 0,
+              false,
+              draft.is_first && melody_.phrase_order > 0,
               glide,
               false,
               draft.emphasis,

@@ -12,6 +12,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sikku::mapping {
@@ -69,6 +70,9 @@ public:
         if (options_.phrase_ends) options_.phrase_ends->push_back(tick - options_.from);
     }
 
+    /// Records that a part of the word was skipped: the next note may lie within a phrase.
+    void skip() { sounding_phrase_ = phrase_; }
+
     /// True if symbols read from `tick` on, the end of the piece or later, cannot affect the piece.
     bool may_stop(std::int64_t tick) const {
         return !shaper_ || shaper_->first_pending() >= options_.to || tick >= options_.to + 64 * melody_.meter.bar();
@@ -116,7 +120,8 @@ private:
         shaper_ ? take_time(line, draft.onset, draft.end) : reserve(line, draft.onset, draft.end);
         return true;
     }
-    void describe(Shaper::Draft& draft) const {
+    void describe(Shaper::Draft& draft) {
+        draft.is_first = std::exchange(sounding_phrase_, phrase_) != phrase_;
         draft.depth = depth;
         draft.level = level;
         draft.emphasis = emphasis;
@@ -174,7 +179,8 @@ private:
     std::optional<DegreeRange> range_;  // created once a note lies beyond it
     std::optional<Shaper> shaper_;
     std::optional<Accompaniment> accompaniment_;
-    std::uint64_t phrase_ = 0;               // phrases that have ended
+    std::uint64_t phrase_ = 1;               // phrases that have begun
+    std::uint64_t sounding_phrase_ = 0;      // that of the last note; 0: none
     std::int64_t accompanied_ = 0;           // tick of the score up to which chords have been added
     std::vector<Line> shaped_;               // line of each voice
     std::vector<std::int64_t> busy_until_;   // by voice, from the notes already placed

@@ -92,6 +92,7 @@ public:
             is_counted_ = false;
             levels_ = {};  // known from the mark after the stretch
             walk_.skip(state_.at, stretch);
+            emitter_.skip();
             state_.time = clock_.skip(state_.time, both ? Integer(across + up) : across, stretch.marks, ahead_);
             if (melody_.vertical == Vertical::voice) state_.other_time += up.convert_to<std::int64_t>();
             state_.has_sounded = true;

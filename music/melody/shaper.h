@@ -32,6 +32,7 @@ public:
         glm::dvec2 to{0.0};
         std::uint64_t symbol = 0;
         int voice = 0;
+        bool is_first = false;   ///< first note of its phrase
         bool is_last = false;    ///< last note of its phrase
         bool is_moved = false;   ///< its degree was brought into the range
         double key = by_degree;  ///< fixed key, which cadences and chords do not change; else by_degree

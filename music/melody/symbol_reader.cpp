@@ -112,6 +112,7 @@ public:
         end_phrases();
         clock_.breathe(stretch.marks, state_.time);
         is_counted_ = false;
+        emitter_.skip();
         level_ = 0;  // known from the mark after the stretch
         state_.time += length.convert_to<double>();
         state_.degree += stretch.rise.convert_to<std::int64_t>();

@@ -25,6 +25,7 @@ void cut(Note& note, std::int64_t from, std::int64_t to) {
         note.is_sliding = glide.ticks > 0 && glide.semitones != 0;
         if (glide.ticks == 0) glide = {};
     }
+    note.begins_phrase = note.begins_phrase && first == note.onset;
     note.onset = first;
     note.duration = last - first;
 }

@@ -215,6 +215,15 @@ void write_parts(TextWriter& out, const ScoreHead& head, const Melody& melody) {
     out.put("],");
 }
 
+/// The ticks at which phrases begin, ascending.
+std::vector<std::int64_t> phrase_begins(const Melody& melody) {
+    std::vector<std::int64_t> begins;
+    for (const Note& note : melody.notes) {
+        if (note.begins_phrase && (begins.empty() || begins.back() != note.onset)) begins.push_back(note.onset);
+    }
+    return begins;
+}
+
 /// The voices of drums.
 std::vector<int> drum_voices(const ScoreHead& head) {
     std::vector<int> voices;
@@ -465,13 +474,17 @@ void write_music_page(const ScoreHead& head, const std::vector<Note>& notes, std
         "<button type=\"button\" id=\"play\"><svg viewBox=\"0 0 10 10\" aria-hidden=\"true\"><path "
         "d=\"M1 0l8 5-8 5z\"/></svg><span>Play</span></button>\n"
         "<label class=\"long\">Position <input type=\"range\" id=\"place\" min=\"0\" max=\"1000\" step=\"any\" "
-        "value=\"0\" aria-label=\"Position\"/> <span id=\"place-text\" aria-hidden=\"true\"></span></label>\n"
+        "value=\"0\" list=\"phrase-begins\" aria-label=\"Position\"/><datalist id=\"phrase-begins\"></datalist> "
+        "<span id=\"place-text\" aria-hidden=\"true\"></span></label>\n"
         "<label>Tempo <input type=\"range\" id=\"tempo\" min=\"{}\" max=\"{}\" step=\"any\" value=\"{}\"/> "
         "<output id=\"tempo-text\"></output></label>\n"
         "<span class=\"part\"><button type=\"button\" class=\"small\" id=\"loop\" "
         "aria-pressed=\"false\">Loop</button>"
         "<label>bars <input type=\"number\" id=\"loop-from\" min=\"1\" value=\"1\"/></label>"
-        "<label>to <input type=\"number\" id=\"loop-to\" min=\"1\" value=\"1\"/></label></span>\n</div>\n"
+        "<label>to <input type=\"number\" id=\"loop-to\" min=\"1\" value=\"1\"/></label></span>\n"
+        "<span class=\"part\" id=\"phrases\" hidden=\"\">Phrase <button type=\"button\" class=\"small\" "
+        "id=\"phrase-before\" aria-label=\"Previous phrase\">◂</button><button type=\"button\" class=\"small\" "
+        "id=\"phrase-after\" aria-label=\"Next phrase\">▸</button></span>\n</div>\n"
         "<div class=\"bar\" id=\"parts\" role=\"group\" aria-label=\"Parts\" hidden=\"\"></div>\n"
         "<div class=\"panels\" id=\"panels\">\n"
         "<figure class=\"curve\"><canvas id=\"curve\" role=\"img\" aria-label=\"The curve, drawn note by note as "
@@ -482,7 +495,8 @@ void write_music_page(const ScoreHead& head, const std::vector<Note>& notes, std
         "<p class=\"hint\"><kbd>Space</kbd> plays and pauses, <kbd>←</kbd> <kbd>→</kbd> move by one bar, "
         "<kbd>Home</kbd> "
         "goes to the beginning, <kbd>L</kbd> loops, <kbd>[</kbd> <kbd>]</kbd> "
-        "set its first and last bar to the current one.</p>\n<noscript><p>To play, this page needs "
+        "set its first and last bar to the current one<span id=\"phrase-hint\" hidden=\"\">, <kbd>Shift</kbd> "
+        "<kbd>←</kbd> <kbd>→</kbd> move by one phrase</span>.</p>\n<noscript><p>To play, this page needs "
         "JavaScript.</p></noscript>\n",
         xml_escaped(head.made), title, page_css, title, xml_escaped(subtitle(head, melody)), number(slowest, 4),
         number(fastest, 4), number(head.tempo, 4));
@@ -497,6 +511,7 @@ void write_music_page(const ScoreHead& head, const std::vector<Note>& notes, std
         ticks_per_quarter, bars_text(head), melody.end, number(head.tempo, 4));
     write_curves(out, curves, tempo_map(head, curves, end));
     write_parts(out, head, melody);
+    out.put("\"phrases\":[{}],", fmt::join(phrase_begins(melody), ","));
     out.put("\"drums\":[{}],\"paper\":{},\"screen\":{},\"notes\":[", fmt::join(drum_voices(head), ","),
             ramp_text(paper_ramp), ramp_text(screen_ramp));
     std::string_view separator = "\n";

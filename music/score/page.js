@@ -57,6 +57,13 @@ const partOf = note => partOfVoice[note[VOICE]];
 const isHeard = note => alone.size > 0 ? alone.has(partOf(note)) : !muted.has(partOf(note));
 /* Bars that repeat: ticks, or null. */
 let loop = null;
+/* Ticks at which phrases begin, ascending. */
+const phrases = data.phrases;
+function firstPhraseFrom(tick) {
+  let a = 0, b = phrases.length;
+  while (a < b) { const m = (a + b) >> 1; if (phrases[m] < tick) a = m + 1; else b = m; }
+  return a;
+}
 
 /* Time: ticks against the clock of the sound, from an anchor that moves when tempo or place change. */
 let sound = null, playing = false, anchorTick = 0, anchorTime = 0, next = 0, timer = 0;
@@ -318,6 +325,13 @@ function seek(tick) {
   anchorTick = Math.min(end, Math.max(0, tick));
   if (playing) begin();
   draw();
+}
+
+/* To the beginning of the phrase, or of the one before if that has just been passed; or to the next. */
+function seekPhrase(isBack) {
+  const tick = tickAt(clock()), passed = playing ? data.quarter : 0;
+  const i = isBack ? firstPhraseFrom(tick - passed) - 1 : firstPhraseFrom(tick + 1);
+  if (isBack || i < phrases.length) seek(i < 0 ? 0 : phrases[i]);
 }
 
 function setTempo(value) {
@@ -585,6 +599,14 @@ function drawRoll(tick) {
     }
   });
   context.globalAlpha = 1;
+  context.fillStyle = theme.accent;
+  const lastPhrase = firstPhraseFrom(rollFrom + shownTicks);
+  for (let i = firstPhraseFrom(rollFrom); i < lastPhrase; ++i) {
+    const at = x(phrases[i]);
+    context.beginPath();
+    context.moveTo(at - 5, 1); context.lineTo(at + 5, 1); context.lineTo(at, 10);
+    context.fill();
+  }
   if (loop) {
     context.fillStyle = theme.accent; context.globalAlpha = 0.1;
     context.fillRect(x(loop.from), 6, x(loop.to) - x(loop.from), h + 10);
@@ -674,6 +696,18 @@ for (const input of [loopFrom, loopTo]) {
   input.addEventListener("change", () => { if (loop) setLoop(Number(loopFrom.value), Number(loopTo.value)); });
 }
 
+if (phrases.length > 1) {
+  for (const id of ["phrases", "phrase-hint"]) element(id).hidden = false;
+  element("phrase-before").addEventListener("click", () => seekPhrase(true));
+  element("phrase-after").addEventListener("click", () => seekPhrase(false));
+  /* The slider has ticks at phrases unless they would merge. */
+  for (const tick of phrases.length <= 64 ? phrases : []) {
+    const option = document.createElement("option");
+    option.value = tick / end * 1000;
+    element("phrase-begins").append(option);
+  }
+}
+
 let dragging = false;
 button.addEventListener("click", toggle);
 tempo.addEventListener("input", () => setTempo(Number(tempo.value)));
@@ -683,7 +717,11 @@ place.addEventListener("input", () => seek(Number(place.value) / 1000 * end));
 function seekTo(event) {
   const box = roll.getBoundingClientRect();
   const part = (event.clientX - box.left - keysWidth) / (box.width - keysWidth - 10);
-  seek(rollFrom + Math.min(1, Math.max(0, part)) * shownTicks);
+  const tick = rollFrom + Math.min(1, Math.max(0, part)) * shownTicks;
+  /* A click on the mark of a phrase goes to its first note. */
+  const near = 8 / (box.width - keysWidth - 10) * shownTicks;
+  const phrase = event.clientY - box.top < 12 ? phrases[firstPhraseFrom(tick - near)] : undefined;
+  seek(phrase <= tick + near ? phrase : tick);
 }
 roll.addEventListener("pointerdown", event => { if (event.button === 0) seekTo(event); });
 document.addEventListener("keydown", event => {
@@ -696,6 +734,8 @@ document.addEventListener("keydown", event => {
     if (!event.repeat) toggle();
   } else if (target.closest("input, pre")) {
     return;
+  } else if (event.shiftKey && (event.key === "ArrowLeft" || event.key === "ArrowRight")) {
+    seekPhrase(event.key === "ArrowLeft");
   } else if (event.key === "ArrowLeft") {
     seek(tickOf(Math.max(0, barAt(tickAt(clock())) - 1)));
   } else if (event.key === "ArrowRight") {

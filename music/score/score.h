@@ -64,16 +64,17 @@ struct Note {
     std::uint8_t velocity = 80;  ///< 1 to 127
     glm::dvec2 from{0.0};        ///< start of its piece of the curve, in turtle steps
     glm::dvec2 to{0.0};
-    std::uint64_t symbol = 0;  ///< position in the word of its first symbol, counted from 1; 0: unknown
-    std::uint8_t depth = 0;    ///< brackets around it
-    std::uint8_t level = 0;    ///< order of the largest sub-curve that begins with it, if a curve follows levels
-    bool is_sliding = false;   ///< its pitch slides to the next note of its voice
-    Glide glide{};             ///< slide of `vertical: glissando`
-    bool has_fermata = false;  ///< it is held at the end
+    std::uint64_t symbol = 0;    ///< position in the word of its first symbol, counted from 1; 0: unknown
+    std::uint8_t depth = 0;      ///< brackets around it
+    std::uint8_t level = 0;      ///< order of the largest sub-curve that begins with it, if a curve follows levels
+    bool is_sliding = false;     ///< its pitch slides to the next note of its voice
+    bool is_remainder = false;   ///< of a note that began before an excerpt
+    bool begins_phrase = false;  ///< of a part that follows no other; false if its beginning is cut off
+    Glide glide{};               ///< slide of `vertical: glissando`
+    bool has_fermata = false;    ///< it is held at the end
     Emphasis emphasis{};
-    ChordSign chord{};          ///< chord that the note of an accompaniment belongs to
-    std::int16_t grace = 0;     ///< cents from its key to the grace note that prints its gamaka; 0: none
-    bool is_remainder = false;  ///< of a note that began before an excerpt
+    ChordSign chord{};       ///< chord that the note of an accompaniment belongs to
+    std::int16_t grace = 0;  ///< cents from its key to the grace note that prints its gamaka; 0: none
 
     /// The end of the piece of the curve that the note comes from.
     glm::dvec2 end_point() const { return {to.x, to.y + static_cast<double>(glide.rise)}; }

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# The page of `sikku play` in a real browser: it plays, pauses, changes tempo, asks the network for nothing.
+# The page of `sikku play` in a real browser: it plays, pauses, changes tempo, loops bars, jumps to phrases, and asks the
+# network for nothing.
 # usage: tests/full/page.sh PROGRAM [SCREENSHOT.png]
 set -euo pipefail
 [ $# -ge 1 ] || { echo "usage: tests/full/page.sh PROGRAM [SCREENSHOT.png]" >&2; exit 2; }
@@ -14,3 +15,5 @@ timeout 120 node "$here/page.mjs" "$folder" "$browser" x.html $screenshot
 timeout 120 node "$here/parts.mjs" "$folder" "$browser" blues.html
 "$program" --quiet play rooms -o rooms.html
 timeout 120 node "$here/bars.mjs" "$folder" "$browser" rooms.html
+"$program" --quiet play hilbert-todi -o phrases.html
+timeout 120 node "$here/phrases.mjs" "$folder" "$browser" phrases.html

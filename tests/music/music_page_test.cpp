@@ -1,5 +1,7 @@
 #include "music/score/music_page.h"
 
+#include "music/scores.h"
+
 #include "tests/checks.h"
 #include "tests/files.h"
 #include "tests/pages.h"
@@ -401,6 +403,81 @@ TEST(MusicPage, WithoutNotesIsAPage) {
     const std::string text = page(head(), {}, 0);
     EXPECT_TRUE(page_notes(text).empty());
     EXPECT_TRUE(has(text, "\"end\":1,"));
+}
+
+/// The numbers of a list in the data of a page: `"phrases":[0,480]`.
+std::vector<std::int64_t> numbers_of(const std::string& text, const std::string& name) {
+    std::vector<std::int64_t> numbers;
+    const std::string begin = "\"" + name + "\":[";
+    const std::size_t at = text.find(begin);
+    EXPECT_NE(at, std::string::npos);
+    for (const char* from = text.c_str() + at + begin.size(); *from != ']'; from += *from == ',' ? 1 : 0) {
+        char* end = nullptr;
+        numbers.push_back(std::strtoll(from, &end, 10));
+        from = end;
+    }
+    return numbers;
+}
+
+const std::string phrased_curve =
+    "axiom: X\nX --> -YF+XFX+FY-\nY --> +XF-YFY-FX+\nheading: 0\nderivation length: 5\nunit: 1/8\nphrases: 2\n";
+
+/// The ticks at which notes begin after a rest, or with the melody: with `breath`, those of phrases.
+std::vector<std::int64_t> begins_after_rests(const std::vector<Note>& notes) {
+    std::map<std::int64_t, std::int64_t> line;  // ends by onset
+    for (const Note& one : notes) line[one.onset] = std::max(line[one.onset], one.onset + one.duration);
+    std::vector<std::int64_t> begins;
+    std::int64_t end = -1;
+    for (const auto& [onset, note_end] : line) {
+        if (onset > end) begins.push_back(onset);
+        end = std::max(end, note_end);
+    }
+    return begins;
+}
+
+TEST(MusicPage, NamesTheBeginningsOfPhrases) {
+    const auto phrases = [](const std::string& keys, const OptionValues& values = {}) {
+        return numbers_of(play(parse("p.lsys", phrased_curve + keys), "html", values), "phrases");
+    };
+    const auto notes = [](const std::string& keys) {
+        const Document document = parse("p.lsys", phrased_curve + keys);
+        std::vector<Note> first;  // voice
+        for (const Note& one : list_notes({&document, 1}, {}, {}).notes) {
+            if (one.voice == 0) first.push_back(one);
+        }
+        return first;
+    };
+    for (const std::string keys :
+         {"", "breath: 1/4\n", "breath: 1/8 bar\n", "breath: 1/8 by level\n", "rhythm: x.xx\n",
+          "cadence: alternate\n", "form: A B A\n", "form: A Br A\n", "form: A Ak\n", "form: A*2 B/2\n",
+          "retrograde: yes\n", "retrograde: yes\nform: A B\n", "loop: 3\n", "start: 2\n", "canon: 2 7\n",
+          "upbeat: 1/4\nbreath: 1/8 bar\n", "vertical: voice\nbreath: 1/8 bar\n", "swing: 66\ncadence: tonic\n",
+          "leaps: 7\n"}) {
+        const std::vector<std::int64_t> expected = begins_after_rests(notes(keys));
+        EXPECT_EQ(phrases(keys), expected) << keys;
+        EXPECT_GT(expected.size(), 1u) << keys;
+    }
+    // Phrases without rests between them are as many.
+    EXPECT_EQ(phrases("breath: none\n").size(), phrases("").size());
+    EXPECT_EQ(phrases("breath: none\nrange: fold\n").front(), 0);
+    // Excerpts have those that begin within them, near the beginning and far from it.
+    const std::vector<std::int64_t> whole = phrases("");
+    for (const std::int64_t from : {2, 3, 7, 20, 33}) {
+        const std::int64_t begin = (from - 1) * 1920;
+        std::vector<std::int64_t> within;
+        for (const std::int64_t tick : whole) {
+            if (tick >= begin && tick < begin + 8 * 1920) within.push_back(tick - begin);
+        }
+        EXPECT_EQ(phrases("", {{"from-bar", std::to_string(from)}, {"bars", "8"}}), within) << from;
+        EXPECT_FALSE(within.empty());
+    }
+    // Melodies without phrases have none, nor has an accompaniment.
+    const auto all = [](const std::string& text) {
+        return numbers_of(play(parse("p.lsys", text), "html"), "phrases");
+    };
+    EXPECT_EQ(all("axiom: F+F\n"), std::vector<std::int64_t>());
+    EXPECT_EQ(phrases("harmony: progression I-V\n"), phrases(""));
+    EXPECT_EQ(phrases("harmony: triads\naccompaniment: oom-pah\n"), phrases(""));
 }
 
 }  // namespace sikku::music_page_test
