@@ -40,13 +40,16 @@ struct Bar {
     std::vector<std::int64_t> ends;  ///< ends of groups
     std::int64_t middle;             ///< the length if the bar has no middle
     bool is_grouped;                 ///< groups are more than simple beats
+    std::int64_t beat;               ///< within groups; 0 if groups are beats
 
     explicit Bar(const Meter& meter)
-        : length(meter.bar()), is_grouped(meter.groups[0] != 0 || has_short_units(meter)) {
+        : length(meter.bar()),
+          is_grouped(meter.groups[0] != 0 || has_short_units(meter)),
+          beat(has_short_units(meter) ? 0 : whole_note / meter.unit) {
         const std::vector<std::int64_t> groups = groups_of(meter);
         ends.resize(groups.size());
         std::partial_sum(groups.begin(), groups.end(), ends.begin());
-        middle = !is_grouped && groups.size() % 2 == 0 ? length / 2 : length;
+        middle = !is_grouped && has_middle(static_cast<std::int64_t>(groups.size())) ? length / 2 : length;
     }
 
     std::int64_t group_end(std::int64_t time) const { return *std::upper_bound(ends.begin(), ends.end(), time); }
@@ -56,20 +59,45 @@ struct Bar {
     }
     bool is_group_end(std::int64_t time) const { return std::binary_search(ends.begin(), ends.end(), time); }
 
-    bool fits(std::int64_t from, std::int64_t to) const {
+    /// True if a value can be printed. @param is_last  no other value is tied to its end
+    bool fits(std::int64_t from, std::int64_t to, bool is_last) const {
         const std::int64_t begin = group_begin(from);
-        if (is_grouped)
-            return to <= group_end(from) ? fits_group(from - begin, to - begin) : from == begin && is_group_end(to);
+        if (is_grouped) {
+            if (to > group_end(from)) return from == begin && is_group_end(to);
+            return fits_group(from - begin, to - begin, group_end(from) - begin, is_last);
+        }
         if (from < middle && to > middle) {
-            // In bars of two or four beats a value may begin with the bar, or lie between two beats.
+            // In bars of four beats a value may begin with the bar, or lie between two beats.
             return to - from == length || (ends.size() <= 4 && (from == 0 || (from == begin && is_group_end(to))));
         }
-        return from == begin || fits_group(from, to);
+        return fits_group(from, to, length, is_last);
     }
 
 private:
+    /// True if a number of beats has a middle that values off the beat do not hide. Two beats have none: a value from
+    /// the half of one to that of the other is a syncopation that readers recognise.
+    static bool has_middle(std::int64_t beats) { return beats % 2 == 0 && beats > 2; }
+
+    /// True if a value fits into a group, or a bar, of beats. Off the beat it does not hide a middle; only one that
+    /// begins with half a beat reaches into the next: to the end of a pair, or up to its half if it is the last.
+    bool fits_group(std::int64_t from, std::int64_t to, std::int64_t group, bool is_last) const {
+        if (beat == 0) return fits_place(from, to);
+        const std::int64_t place = from % beat;
+        if (place == 0) return true;
+        if (2 * place != beat) return fits_place(place, place + to - from);
+        std::int64_t beats = group / beat;
+        for (; has_middle(beats); beats /= 2) {
+            const std::int64_t half = beats / 2 * beat;
+            if (from < half && to > half) return false;
+            if (from < half) continue;
+            from -= half;
+            to -= half;
+        }
+        if (beats == 2) return to <= 2 * beat;
+        return to - from <= (is_last ? beat : beat / 2);
+    }
     /// True if a value fits the metrical place of `from`, its largest power of two.
-    static bool fits_group(std::int64_t from, std::int64_t to) {
+    static bool fits_place(std::int64_t from, std::int64_t to) {
         if (from == 0) return true;
         const std::int64_t place = from / shortest_value;
         const std::int64_t wider = 4 * (place & -place);
@@ -258,7 +286,7 @@ std::vector<WrittenValue> written_values(std::int64_t from, std::int64_t to, con
         // A 64th always fits.
         const auto found = std::find_if(lengths.begin(), lengths.end() - 1, [&](std::int64_t candidate) {
             const std::int64_t end = from + candidate * shortest_value;
-            return end <= to && bar.fits(from, end);
+            return end <= to && bar.fits(from, end, end == to);
         });
         const std::int64_t length = *found * shortest_value;
         result.push_back({length, note_value(length)});

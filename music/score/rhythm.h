@@ -100,9 +100,10 @@ struct WrittenValue {
     NoteValue value;
 };
 
-/// Splits a stretch within one bar and outside tuplets into note values. It crosses neither the middle of the bar nor
-/// the end of a group unless it begins with one and ends with one; off the beat it does not hide the next larger
-/// metrical place. @param from, to  ticks from the bar line, multiples of a 64th
+/// Splits a stretch within one bar and outside tuplets into note values. It crosses neither the middle of four and
+/// more beats nor the end of a group unless it begins with one and ends with one; off the beat it does not hide the
+/// next larger metrical place. A value that begins with half a beat may end with half of the next, wherever that is.
+/// @param from, to  ticks from the bar line, multiples of a 64th
 std::vector<WrittenValue> written_values(std::int64_t from, std::int64_t to, const Meter& meter);
 /// Splits a stretch of a tuplet. @param from, to  on its grid
 std::vector<WrittenValue> written_values(std::int64_t from, std::int64_t to, const TupletSpan& tuplet);

@@ -366,7 +366,7 @@ TEST(Arrangement, EveryFormatHasTheTempoAndMeterOfSections) {
     const std::string ly = written("ly");
     EXPECT_TRUE(has(ly, "\\time 3/4 \\tempo \"Adagio\" 4 = 60 ")) << ly;
     EXPECT_TRUE(has(ly, "\\time 4/4 \\tempo 4 = 120 ")) << ly;
-    EXPECT_TRUE(has(written("abc"), " [M:3/4] [Q:\"Adagio\" 1/4=60] DEFE-E z || ")) << written("abc");
+    EXPECT_TRUE(has(written("abc"), " [M:3/4] [Q:\"Adagio\" 1/4=60] DEF E2 z || ")) << written("abc");
     EXPECT_TRUE(has(written("sco"), "t 0 120 4 120 4 60 7 60 7 120\n")) << written("sco");
     EXPECT_TRUE(has(written("html"), "\"bars\":[[0,1920],[1920,1440],[3360,1920]]"));
     EXPECT_TRUE(has(written("html"), "\"tempos\":[[1920,0.5],[3360,1]]"));

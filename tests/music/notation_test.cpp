@@ -107,7 +107,6 @@ TEST(Notation, PrintsTheLongestThatTheBeatAllows) {
     EXPECT_EQ(words({4, 4}, {120, 480, 120, 240, 960}), "16 8.~ 16 16 8 2");
     EXPECT_EQ(words({4, 4}, {7 * eighth, 9 * eighth}), "2.~ 8 8~ | 1");
     EXPECT_EQ(words({3, 4}, {6 * eighth, 6 * eighth}), "2. | 2.");
-    EXPECT_EQ(words({2, 2}, {480, 960, 480}), "4 4~ 4 4");
     EXPECT_EQ(words({5, 8}, {5 * eighth, 3 * eighth, 2 * eighth}), "4.~ 4 | 4. 4");
     EXPECT_EQ(words({7, 8}, {7 * eighth}), "4.~ 2");
     EXPECT_EQ(words({8, 4}, {16 * eighth}), "1~ 1");
@@ -119,6 +118,147 @@ TEST(Notation, PrintsTheLongestThatTheBeatAllows) {
     EXPECT_EQ(words({9, 8}, {9 * eighth}), "2.~ 4.");
     EXPECT_EQ(words({12, 8}, {12 * eighth}), "1.");
     EXPECT_EQ(words({3, 8}, {2 * eighth, 4 * eighth}), "4 8~ | 4.");
+}
+
+/// A bar as a key: meter and groups.
+std::string meter_text(const Meter& meter) {
+    std::string text = std::to_string(meter.beats) + "/" + std::to_string(meter.unit);
+    for (const std::uint8_t group : meter.groups) text += "+" + std::to_string(group);
+    return text;
+}
+
+/// Lines with notes off the beat, tuplets, rests, an upbeat and changes of meter.
+TestScore syncopated_score(unsigned seed) {
+    std::mt19937 random(seed);
+    const auto below = [&](std::size_t count) { return static_cast<std::size_t>(random() % count); };
+    static constexpr std::array<Meter, 12> meters = {{{4, 4, {}},
+                                                      {3, 4, {}},
+                                                      {2, 4, {}},
+                                                      {2, 2, {}},
+                                                      {3, 2, {}},
+                                                      {5, 4, {}},
+                                                      {6, 4, {}},
+                                                      {6, 8, {}},
+                                                      {7, 8, {}},
+                                                      {9, 8, {}},
+                                                      {8, 8, {3, 3, 2}},
+                                                      {7, 4, {3, 2, 2}}}};
+    static constexpr std::array<std::int64_t, 3> units = {60, 120, 240};
+    TestScore score = line(meters[below(meters.size())], {});
+    score.head.parts = {plain_part("Voices", static_cast<int>(1 + below(3)))};
+    if (below(4) == 0) score.head.upbeat = 240 * static_cast<std::int64_t>(1 + below(2));
+    for (int voice = 0; voice < score.head.parts.front().voices; ++voice) {
+        std::int64_t here = 0;
+        for (std::size_t i = 0; i < 60; ++i) {
+            const bool is_tuplet = here % 480 == score.head.upbeat % 480 && below(8) == 0;
+            const std::int64_t length = is_tuplet ? 160 : units[below(3)] * static_cast<std::int64_t>(1 + below(8));
+            const int times = is_tuplet ? 3 : 1;
+            for (int k = 0; k < times; ++k, here += length) {
+                if (below(6) == 0) continue;
+                score.notes.push_back({.onset = here,
+                                       .duration = length,
+                                       .key = 60.0 + static_cast<double>(below(20)),
+                                       .voice = static_cast<std::int16_t>(voice)});
+            }
+        }
+        score.end = std::max(score.end, here);
+    }
+    std::int64_t at = score.head.upbeat;
+    Meter meter = score.head.meter;
+    for (std::size_t i = 0; i < below(3); ++i) {
+        at += meter.bar() * static_cast<std::int64_t>(1 + below(4));
+        meter = meters[below(meters.size())];
+        score.head.changes.push_back({at, {120, {}, meter}});
+    }
+    return score;
+}
+
+/// How notes and rests are printed: `4/4 n 240+480` is a note of a quarter after an eighth.
+class Writings {
+public:
+    /// Records a stretch of a bar, and expects that all equal ones are printed with the same values.
+    void add(const std::string& stretch, const std::string& values) {
+        const auto [known, is_new] = by_stretch_.emplace(stretch, values);
+        EXPECT_EQ(known->second, values) << stretch;
+        repeated_ += is_new ? 0 : 1;
+    }
+    std::size_t count() const { return by_stretch_.size(); }
+    std::size_t repeated() const { return repeated_; }
+    std::string at(const std::string& stretch) const {
+        const auto known = by_stretch_.find(stretch);
+        return known == by_stretch_.end() ? "" : known->second;
+    }
+
+private:
+    std::map<std::string, std::string> by_stretch_;
+    std::size_t repeated_ = 0;
+};
+
+TEST(Notation, EqualRhythmsAreWrittenEqually) {
+    Writings by_bar;   // at equal places of bars
+    Writings by_beat;  // at equal places of beats, if the bar has no middle and no groups
+    for (unsigned seed = 0; seed < 300; ++seed) {
+        const TestScore score = syncopated_score(seed);
+        const Notation notation = notate(score);
+        const BarLines& bars = notation.bar_lines;
+        for (const NotatedVoice& voice : notation.parts.front().staves.front().voices) {
+            for (std::size_t i = 0; i < voice.symbols.size();) {
+                const NotatedSymbol& first = voice.symbols[i];
+                std::string values;
+                std::int64_t length = 0;
+                bool is_plain = first.kind == SymbolKind::note || first.kind == SymbolKind::rest;
+                do {
+                    const NotatedSymbol& symbol = voice.symbols[i];
+                    is_plain = is_plain && symbol.kind == first.kind && symbol.tuplet < 0;
+                    values += std::to_string(symbol.value.divisor) + (symbol.value.dotted ? ". " : " ");
+                    length += symbol.length;
+                    ++i;
+                } while (i < voice.symbols.size() &&
+                         (first.kind == SymbolKind::note ? voice.symbols[i].tied_back
+                                                         : voice.symbols[i].kind == first.kind) &&
+                         bars.number(voice.symbols[i].onset) == bars.number(first.onset));
+                if (!is_plain) continue;
+                const Meter& meter = bars.meter(first.onset);
+                const std::int64_t place = bars.place(first.onset);
+                const std::string kind = first.kind == SymbolKind::note ? " n " : " r ";
+                by_bar.add(meter_text(meter) + kind + std::to_string(place) + "+" + std::to_string(length), values);
+                const bool is_even = meter.groups[0] == 0 && meter.unit < 8 && meter.beats % 2 != 0;
+                const std::int64_t beat = 4 * ticks_per_quarter / meter.unit;
+                const bool is_off_beat = place % beat != 0 && place + length < meter.bar();
+                if (is_even && is_off_beat && first.kind == SymbolKind::note) {
+                    by_beat.add(meter_text(meter) + " " + std::to_string(place % beat) + "+" + std::to_string(length),
+                                values);
+                }
+            }
+        }
+    }
+    EXPECT_GT(by_bar.count(), 500u);
+    EXPECT_GT(by_bar.repeated(), 5'000u);
+    EXPECT_GT(by_beat.repeated(), 100u);
+    EXPECT_EQ(by_beat.at(meter_text({3, 4, {}}) + " 240+480"), "4 ");
+}
+
+TEST(Notation, SyncopationsAreWrittenOneWay) {
+    // In three beats wherever they are; dotted ones show the beat.
+    EXPECT_EQ(words({3, 4}, {eighth, 480, 480, eighth}), "8 4 4 8");
+    EXPECT_EQ(words({3, 4}, {eighth, 480, 3 * eighth}), "8 4 8~ 4");
+    EXPECT_EQ(words({3, 4}, {3 * eighth, 3 * eighth}), "4. 8~ 4");
+    EXPECT_EQ(words({3, 4}, {eighth, 3 * eighth, 480}), "8 8~ 4 4");
+    EXPECT_EQ(words({3, 2}, {480, 960, 960, 480}), "4 2 2 4");
+    // Two beats are a pair: alone, in halves of four, and in a group.
+    EXPECT_EQ(words({2, 4}, {eighth, 480, eighth}), "8 4 8");
+    EXPECT_EQ(words({2, 4}, {eighth, 3 * eighth}), "8 4.");
+    EXPECT_EQ(words({2, 2}, {480, 960, 480}), "4 2 4");
+    EXPECT_EQ(words({4, 4}, {eighth, 480, eighth, eighth, 480, eighth}), "8 4 8 8 4 8");
+    EXPECT_EQ(words({4, 4}, {eighth, 480, 480, 480, eighth}), "8 4 8~ 8 4 8");
+    EXPECT_EQ(words({7, 4, {3, 2, 2}}, {eighth, 480, 480, eighth, eighth, 480, eighth, eighth, 480, eighth}),
+              "8 4 4 8 8 4 8 8 4 8");
+    // Six quarters are twice three.
+    EXPECT_EQ(words({6, 4}, {eighth, 480, 480, eighth, eighth, 480, 480, eighth}), "8 4 4 8 8 4 4 8");
+    EXPECT_EQ(words({5, 4}, {eighth, 480, 480, 480, 480, eighth}), "8 4 4 4 4 8");
+    EXPECT_EQ(words({8, 4}, {eighth, 480, 480, 480, eighth, 1920}), "8 4 8~ 8 4 8 1");
+    // Shorter ones stay within their beat.
+    EXPECT_EQ(words({3, 4}, {120, 240, 240, 240, 120, 480}), "16 8 16~ 16 8 16 4");
 }
 
 TEST(Notation, RestsFillGapsAndTheLastBar) {
