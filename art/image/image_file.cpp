@@ -4,6 +4,7 @@
 #include "art/image/png_writer.h"
 #include "art/module/module.h"
 #include "engine/base/threads.h"
+#include "engine/base/toml_file.h"
 
 #include <sys/mman.h>
 
@@ -49,6 +50,17 @@ const ImageModule& image_module(int threads = 0) {
     return loaded;
 }
 
+/// Calls a function that reads a profile. @throws FileError instead of its std::runtime_error: the profile is a
+/// faulty file
+template <class Use>
+auto use_profile(const Use& use) {
+    try {
+        return use();
+    } catch (const std::runtime_error& error) {
+        throw FileError(error.what());
+    }
+}
+
 }  // namespace
 
 void prepare_images(int threads) {
@@ -60,11 +72,13 @@ std::unique_ptr<ImageWriter> open_image(const std::filesystem::path& path, const
 }
 
 std::unique_ptr<InkProfile> open_inks(const std::filesystem::path& file) {
-    return image_module().open_inks(file);
+    const ImageModule& module = image_module();
+    return use_profile([&] { return module.open_inks(file); });
 }
 
 void check_cmyk_profile(const std::filesystem::path& file) {
-    image_module().check_cmyk_profile(file);
+    const ImageModule& module = image_module();
+    use_profile([&] { module.check_cmyk_profile(file); });
 }
 
 bool is_picture(std::string_view bytes) {

@@ -77,12 +77,12 @@ public:
     /// compensation.
     virtual std::array<double, 4> convert(std::array<std::uint8_t, 3> colour) const = 0;
 };
-/// Opens a profile; loads the module, too. @throws std::runtime_error, which names the file, as check_cmyk_profile(),
-/// and if the profile is not one of an output device
+/// Opens a profile; loads the module, too. @throws FileError, which names the file, as check_cmyk_profile(), and if
+/// the profile is not one of an output device
 std::unique_ptr<InkProfile> open_inks(const std::filesystem::path& file);
 
-/// @throws std::runtime_error, which names the file, if it is not an ICC profile that converts colours to CMYK. Loads
-/// the module, too.
+/// @throws FileError, which names the file, if it is not an ICC profile that converts colours to CMYK;
+/// std::runtime_error if the module, which it loads, is missing
 void check_cmyk_profile(const std::filesystem::path& file);
 
 /// A picture that was read: upright, rows from top to bottom, 3 bytes a pixel.

@@ -1,4 +1,5 @@
 #include "art/image/image_file.h"
+#include "engine/base/toml_file.h"
 #include "tests/checks.h"
 #include "tests/print_tools.h"
 
@@ -84,7 +85,7 @@ protected:
     }
     /// What is wrong with a profile of inks.
     static std::string complaint(const std::filesystem::path& profile) {
-        return error_of<std::runtime_error>([&] { check_cmyk_profile(profile); });
+        return error_of<FileError>([&] { check_cmyk_profile(profile); });
     }
     /// The inks of a TIFF, 4 bytes a pixel, read by another program.
     Bytes inks(const std::filesystem::path& file) {
