@@ -97,6 +97,12 @@ std::vector<Option<S>> make_table() {
               "print kampitas and jarus as grace notes: the degree above, or the note from which the pitch slides",
           .kind = flag},
          [](S& s, Text t) { s.has_graces = t == "true"; }},
+        {{.name = "repeats",
+          .help =
+              "print passages of four bars or more that follow themselves once, between repeat signs, with first and "
+              "second endings where they differ at the end",
+          .kind = flag},
+         [](S& s, Text t) { s.has_repeats = t == "true"; }},
         {{.name = "parts",
           .help = "also print a part for each player, in files beside the score such as NAME-1-flute.pdf",
           .kind = flag,

@@ -4,6 +4,7 @@
 #include "engine/base/text.h"
 #include "music/score/audio.h"
 #include "music/score/engraving.h"
+#include "music/score/repeats.h"
 #include "music/score/score_formats.h"
 
 #include <fmt/format.h>
@@ -75,7 +76,8 @@ constexpr std::array<ScoreWriter, 13> table = {{
      .pattern = PatternForm::xml,
      .lowest = lowest_in_musicxml,
      .print = write_notation<write_musicxml>,
-     .has_cues = true},
+     .has_cues = true,
+     .most_repeats = most_times_repeated},
     {.name = {"mxl", "compressed MusicXML"},
      .medium = notation,
      .is_printed = true,
@@ -83,25 +85,29 @@ constexpr std::array<ScoreWriter, 13> table = {{
      .lowest = lowest_in_musicxml,
      .cost = {0.001, 1000, 2e6, 2.5e-6, 12, 110},
      .print = write_compressed,
-     .has_cues = true},
+     .has_cues = true,
+     .most_repeats = most_times_repeated},
     {.name = {.extension = "ly", .label = "LilyPond", .is_text = true},
      .medium = notation,
      .is_printed = true,
      .pattern = PatternForm::comments,
      .print = write_notation<write_lilypond>,
-     .has_cues = true},
+     .has_cues = true,
+     .most_repeats = most_times_repeated},
     {.name = {"score.pdf", "printed score", "pdf"},
      .medium = notation,
      .is_printed = true,
      .needs_file = "a printed score needs",
      .cost = {2, 10'000, 120e6, 2e-3, 300, 20'000},
      .print = write_engraved,
-     .has_cues = true},
+     .has_cues = true,
+     .most_repeats = most_times_repeated},
     {.name = {.extension = "abc", .label = "ABC", .is_text = true},
      .medium = notation,
      .is_printed = true,
      .pattern = PatternForm::comments,
-     .print = write_notation<write_abc>},
+     .print = write_notation<write_abc>,
+     .most_repeats = 2},
     {.name = {"wav", "sound"},
      .medium = sound,
      .needs_file = "sound needs",

@@ -126,6 +126,7 @@ private:
             if (settings_.syllables != Syllables::none) warn("syllables", "it applies only to print");
             if (settings_.has_chord_signs) warn("chord-symbols", "it applies only to print");
             if (settings_.has_graces) warn("grace-notes", "it applies only to print");
+            if (settings_.has_repeats) warn("repeats", "it applies only to print");
         }
         if (settings_.has_parts && writer_.medium != ScoreMedium::notation) warn("parts", "it applies only to print");
         if (settings_.tuning != Tuning::bend && !writer_.has_channels()) {
@@ -266,7 +267,9 @@ private:
     }
 
     ScoreHead make_head(const PlayOptions& playing, int most) {
-        return head_of(settings_, ensemble_, arrangement_ ? &*arrangement_ : nullptr, playing, most);
+        ScoreHead head = head_of(settings_, ensemble_, arrangement_ ? &*arrangement_ : nullptr, playing, most);
+        if (settings_.has_repeats) head.most_repeats = writer_.most_repeats;
+        return head;
     }
 
     ExpressionSink::Use use() const {
@@ -303,7 +306,7 @@ void ScoreWork::check_size(const PlayOptions& playing) const {
     }
 }
 
-/// Reports names of chords and syllables that are missing.
+/// Reports repeats, and names of chords and syllables that are missing.
 void ScoreWork::report_marks(const Notation& notation, Made& made) const {
     const bool has_chords = std::any_of(notation.parts.begin(), notation.parts.end(),
                                         [](const NotatedPart& part) { return !part.chords.empty(); });
@@ -313,6 +316,12 @@ void ScoreWork::report_marks(const Notation& notation, Made& made) const {
         made.warn(fmt::format(
             "{} no name, and a dash above the staff",
             notation.nameless_chords == 1 ? "1 chord has" : counted(notation.nameless_chords, "chord") + " have"));
+    }
+    if (settings_.has_repeats && notation.repeats.empty()) {
+        made.warn_of_unused("repeats", "no passage of four bars or more follows itself");
+    } else if (settings_.has_repeats) {
+        made.fact(fmt::format("{} printed as {}: {}", counted(notation.played_bars(), "bar"), notation.bars,
+                              counted(notation.repeats.size(), "repeat")));
     }
     bool has_syllables = false;
     bool has_graces = false;

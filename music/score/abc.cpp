@@ -144,7 +144,8 @@ private:
     /// Writes what changes where a section begins; the tempo in the first voice.
     void write_section_change(const SectionChange& change, bool is_first) {
         const TempoAndMeter& after = change.to;
-        const TempoAndMeter before = tempo_and_meter_at(tempo_and_meter_of(head_), head_.changes, change.onset - 1);
+        const TempoAndMeter before =
+            tempo_and_meter_at(tempo_and_meter_of(head_), notation_.changes, change.onset - 1);
         if (after.meter != before.meter) put("[M:{}] ", meter_name(after.meter));
         if (!is_first || !needs_tempo_mark(before, after)) return;
         // A bracket would end the field.
@@ -254,7 +255,7 @@ private:
         const NotatedVoice& voice = staff.voices[index];
         const BarLines& bar_lines = notation_.bar_lines;
         const bool is_first_of_score = &voice == &notation_.parts.front().staves.front().voices.front();
-        auto section = head_.changes.begin();
+        auto section = notation_.changes.begin();
         std::array<int, 7> signs = signs_of(keys.front().key);
         auto key = keys.begin() + 1;
         const bool is_first = index == 0;
@@ -266,22 +267,24 @@ private:
         auto chord = chords.begin();
         std::string sung;       // syllables of the line
         std::set<int> altered;  // letters whose sign is not that of the key
+        put("{}", bar_beginning(0));
         for (std::size_t i = 0; i < voice.symbols.size(); ++i) {
             const NotatedSymbol& symbol = voice.symbols[i];
             for (; key != keys.end() && key->onset <= symbol.onset; ++key) {
                 signs = signs_of(key->key);
                 put("[K:{} clef={}] ", key_name(key->key), clef_name(clef));
             }
-            for (; section != head_.changes.end() && section->onset <= symbol.onset; ++section) {
+            for (; section != notation_.changes.end() && section->onset <= symbol.onset; ++section) {
                 write_section_change(*section, is_first_of_score);
             }
             for (; is_first && change < staff.changes.size() && staff.changes[change].onset <= symbol.onset;
                  ++change) {
                 const StaffChange& next = staff.changes[change];
-                if (next.clef != clef) put("[K:clef={}] ", clef_name(next.clef));
+                if (next.clef != clef || next.restates_clef) put("[K:clef={}] ", clef_name(next.clef));
                 clef = next.clef;
                 const int line = std::clamp(next.octaves, -1, 1);
-                if (octaves != line) put("{}{}", line_of_octaves(octaves, ')'), line_of_octaves(line, '('));
+                if (octaves != line || next.restarts_line)
+                    put("{}{}", line_of_octaves(octaves, ')'), line_of_octaves(line, '('));
                 octaves = line;
             }
             for (; mark < marks.size() && marks[mark].onset <= symbol.onset; ++mark) {
@@ -319,13 +322,36 @@ private:
             const std::int64_t full_bars = bar_lines.printed_number(end) - 1;
             const bool ends_line = is_last || (full_bars > 0 && full_bars % bars_on_a_line_ == 0);
             if (is_last) put("{}", line_of_octaves(octaves, ')'));
-            const std::vector<std::int64_t>& doubled = notation_.double_bars;
-            const bool is_double = std::binary_search(doubled.begin(), doubled.end(), end);
-            put(" {}{}", is_last ? (notation_.is_cut ? "|" : "|]") : is_double ? "||" : "|", ends_line ? "\n" : " ");
-            if (!ends_line) continue;
-            if (sung.find_first_not_of(" *") != std::string::npos) put("w:{}\n", sung);
-            sung.clear();
+            const std::string line = bar_line(end, is_last, ends_line);
+            const std::string beginning = is_last ? "" : bar_beginning(end);
+            // A repeat that follows another one: `:||:`.
+            const bool are_joined = !line.empty() && beginning.starts_with('|');
+            put("{}{}{}", line.empty() ? "" : " ", line, ends_line ? "\n" : are_joined ? "" : " ");
+            if (ends_line) {
+                if (sung.find_first_not_of(" *") != std::string::npos) put("w:{}\n", sung);
+                sung.clear();
+            }
+            put("{}", beginning);
         }
+    }
+
+    /// The line at the end of a bar: `|`, `:|`, `||` or `|]`; empty if the sign after it is enough.
+    std::string bar_line(std::int64_t end, bool is_last, bool ends_line) const {
+        const RepeatSigns signs = signs_at(notation_.repeats, end);
+        if (signs.ended) return ":|";
+        if (signs.begun && !ends_line) return "";
+        if (is_last) return notation_.is_cut ? "|" : "|]";
+        const std::vector<std::int64_t>& doubled = notation_.double_bars;
+        // A double bar ends the bracket of a second ending.
+        return signs.closed || std::binary_search(doubled.begin(), doubled.end(), end) ? "||" : "|";
+    }
+
+    /// What begins with a bar: `|:` or `[1`.
+    std::string bar_beginning(std::int64_t begin) const {
+        const RepeatSigns signs = signs_at(notation_.repeats, begin);
+        if (signs.first_ending) return "[1 ";
+        if (signs.ended && signs.ended->has_endings()) return "[2 ";
+        return signs.begun ? "|: " : "";
     }
 
     /// Names of chords are read, not heard; abc2midi has to know them all the same.

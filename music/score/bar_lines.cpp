@@ -52,6 +52,17 @@ BarLines BarLines::from(std::int64_t tick) const {
     return result;
 }
 
+BarLines BarLines::without(std::int64_t first, std::int64_t end) const {
+    BarLines result = *this;
+    const std::int64_t bars = number(end) - number(first);
+    for (Stretch& stretch : result.stretches_) {
+        if (stretch.onset < end) continue;
+        stretch.onset -= end - first;
+        stretch.number -= bars;
+    }
+    return result;
+}
+
 TempoAndMeter tempo_and_meter_of(const ScoreHead& head) {
     return {head.tempo, head.tempo_words, head.meter};
 }

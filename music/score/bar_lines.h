@@ -58,6 +58,9 @@ public:
     std::int64_t count(std::int64_t tick) const { return number(next(tick)); }
     /// The same bar lines, with ticks and bars counted from the one at `tick`.
     BarLines from(std::int64_t tick) const;
+    /// The bar lines that are left if the bars from one bar line to another are cut out. All have the same meter,
+    /// also the bar before them.
+    BarLines without(std::int64_t first, std::int64_t end) const;
 
 private:
     /// Bars of the same meter.

@@ -115,9 +115,10 @@ std::vector<StatedLevel> stated_levels(std::span<const Note> notes) {
 }
 
 /// A balance such as loud bass notes and soft chords is printed once: of four or more bars in a row whose notes have
-/// the same levels at the same places, or some of them, the second and all that follow are marked as repeated.
+/// the same levels at the same places, or some of them, the second and all that follow are marked as repeated, except
+/// for the first after the beginning of a repeat or a second ending.
 void find_balance(std::span<const Note> notes, const BarLines& bars, std::int64_t fresh_from,
-                  std::vector<StatedLevel>& stated) {
+                  std::span<const PrintedRepeat> repeats, std::vector<StatedLevel>& stated) {
     constexpr std::size_t fewest_bars = 4;
     struct Bar {
         std::size_t first = 0;  // in `stated`
@@ -139,9 +140,17 @@ void find_balance(std::span<const Note> notes, const BarLines& bars, std::int64_
                std::any_of(bar.levels.begin(), bar.levels.end(),
                            [&](const auto& one) { return one.second != level; });
     };
+    const std::vector<std::int64_t> entries = entries_of(repeats);
+    const auto entries_before = [&](std::int64_t tick) {
+        return std::upper_bound(entries.begin(), entries.end(), tick) - entries.begin();
+    };
     const auto mark_repeated = [&](std::size_t begin, std::size_t end) {
         bool is_printed = false;
+        std::ptrdiff_t entry = 0;
         for (std::size_t bar = begin; bar < end; ++bar) {
+            const std::ptrdiff_t last_entry = entries_before(notes[stated[stating[bar].first].first].onset);
+            is_printed = is_printed && last_entry == entry;
+            entry = last_entry;
             for (std::size_t k = stating[bar].first; k < stating[bar].end; ++k) stated[k].is_repeated = is_printed;
             // The first bar that is printed states it.
             const std::int64_t onset = notes[stated[stating[bar].first].first].onset;
@@ -163,6 +172,67 @@ void find_balance(std::span<const Note> notes, const BarLines& bars, std::int64_
     }
 }
 
+/// Writes the dynamics of notes from one border of a repeat to the next.
+class DynamicsWriter {
+public:
+    DynamicsWriter(std::span<const Note> notes, const BarLines& bars, std::int64_t fresh_from,
+                   std::span<const PrintedRepeat> repeats)
+        : notes_(notes), bars_(bars), stated_(stated_levels(notes)) {
+        find_balance(notes, bars, fresh_from, repeats, stated_);
+    }
+    const std::vector<DynamicMark>& marks() const { return marks_; }
+
+    void write_until(std::int64_t end) {
+        std::size_t derived = place_.note;  // first note whose dynamics are still to be derived
+        for (; place_.stated < stated_.size(); ++place_.stated) {
+            const StatedLevel& stated = stated_[place_.stated];
+            const std::int64_t onset = notes_[stated.first].onset;
+            if (onset >= end) break;
+            place_.note = stated.end;
+            if (stated.level < 0) continue;
+            add_derived(notes_.subspan(derived, stated.first - derived), bars_, place_.level, marks_);
+            derived = stated.end;
+            if (stated.level != place_.level && !stated.is_repeated) {
+                marks_.push_back({onset, DynamicMark::Kind::level, stated.level});
+            }
+            place_.level = stated.level;
+        }
+        add_derived(notes_.subspan(derived, place_.note - derived), bars_, place_.level, marks_);
+    }
+
+    void write_repeat(const PrintedRepeat& repeat) {
+        const Place before = place_;
+        const auto marks_before = static_cast<std::ptrdiff_t>(marks_.size());
+        write_until(repeat.ending);
+        int in_force = place_.level;  // where the second ending begins
+        write_until(repeat.end);
+        if (place_.level != before.level) {
+            marks_.erase(marks_.begin() + marks_before, marks_.end());
+            place_ = before;
+            place_.level = unknown;
+            write_until(repeat.ending);
+            in_force = place_.level;
+            write_until(repeat.end);
+        }
+        if (repeat.has_endings() && place_.level != in_force) place_.level = unknown;
+        write_until(repeat.last);
+    }
+
+private:
+    static constexpr int unknown = -1;
+    struct Place {
+        std::size_t stated = 0;
+        std::size_t note = 0;
+        int level = unknown;  ///< in force
+    };
+
+    std::span<const Note> notes_;
+    const BarLines& bars_;
+    std::vector<StatedLevel> stated_;
+    Place place_;
+    std::vector<DynamicMark> marks_;
+};
+
 }  // namespace
 
 std::string_view dynamic_name(int level) {
@@ -174,23 +244,15 @@ int dynamic_level(double velocity) {
     return std::clamp(static_cast<int>(std::lround(velocity / step)) - 1, 0, levels - 1);
 }
 
-std::vector<DynamicMark> dynamics_of(std::span<const Note> notes, const BarLines& bars, std::int64_t fresh_from) {
-    std::vector<DynamicMark> marks;
-    int current = -1;
-    std::size_t derived = 0;  // first note whose dynamics are still to be derived
-    std::vector<StatedLevel> all = stated_levels(notes);
-    find_balance(notes, bars, fresh_from, all);
-    for (const StatedLevel& stated : all) {
-        if (stated.level < 0) continue;
-        add_derived(notes.subspan(derived, stated.first - derived), bars, current, marks);
-        derived = stated.end;
-        if (stated.level != current && !stated.is_repeated) {
-            marks.push_back({notes[stated.first].onset, DynamicMark::Kind::level, stated.level});
-        }
-        current = stated.level;
+std::vector<DynamicMark> dynamics_of(std::span<const Note> notes, const BarLines& bars, std::int64_t fresh_from,
+                                     std::span<const PrintedRepeat> repeats) {
+    DynamicsWriter writer(notes, bars, fresh_from, repeats);
+    for (const PrintedRepeat& repeat : repeats) {
+        writer.write_until(repeat.begin);
+        writer.write_repeat(repeat);
     }
-    add_derived(notes.subspan(derived), bars, current, marks);
-    return marks;
+    writer.write_until(INT64_MAX);
+    return writer.marks();
 }
 
 std::vector<bool> accents_of(std::span<const Note> notes, const BarLines& bars) {

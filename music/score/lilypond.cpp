@@ -101,10 +101,13 @@ public:
         write_drum_table();
         if (has_chords()) write_chord_exceptions();
         write_paper();
-        put("\\score {{\n  <<\n");
+        const bool has_repeats = !notation_.repeats.empty();
+        put("{}\n  <<\n", has_repeats ? "sikkuMusic =" : "\\score {");
         for (std::size_t i = 0; i < notation_.parts.size(); ++i) write_part(i);
-        put("  >>\n");
+        put("  >>\n{}", has_repeats ? "\n\\score {\n  \\sikkuMusic\n" : "");
         write_layout();
+        // Repeats are printed once, and heard as often as they are played.
+        if (has_repeats) put("}}\n\n\\score {{\n  \\unfoldRepeats \\sikkuMusic\n");
         // Cues and names of chords are read, not heard.
         put("  \\midi {{{}{} }}\n}}\n", has_cues() ? " \\context { \\CueVoice \\remove \"Note_performer\" }" : "",
             has_chords() ? " \\context { \\ChordNames \\remove \"Note_performer\" }" : "");
@@ -369,7 +372,8 @@ private:
     /// Writes what changes where a section begins. @return true if the tempo is stated
     bool write_section_change(const SectionChange& change, bool slows_down) {
         const TempoAndMeter& after = change.to;
-        const TempoAndMeter before = tempo_and_meter_at(tempo_and_meter_of(head_), head_.changes, change.onset - 1);
+        const TempoAndMeter before =
+            tempo_and_meter_at(tempo_and_meter_of(head_), notation_.changes, change.onset - 1);
         if (after.meter != before.meter) put("{} ", meter_name(after.meter));
         const bool has_tempo = needs_tempo_mark(before, after);
         if (has_tempo) put("{} ", tempo_mark(after.tempo, after.meter, after.tempo_words, slows_down));
@@ -410,7 +414,7 @@ private:
             write_voice(staff.voices[i], i == 0 ? staff.changes : std::vector<StaffChange>{},
                         i == 0 ? std::span(part.keys).subspan(1) : std::span<const KeyChange>{},
                         has_dynamics && is_single ? staff.dynamics : std::vector<DynamicMark>{},
-                        has_tempo && i == 0 ? std::span(head_.changes) : std::span<const SectionChange>{});
+                        has_tempo && i == 0 ? std::span(notation_.changes) : std::span<const SectionChange>{});
             cues_ = {};
             put("{}      }}\n", told.is_drums ? "        }\n" : "");
         }
@@ -424,6 +428,21 @@ private:
         if (is_single) write_syllables(staff.voices.front());
     }
 
+    /// What ends or begins at a bar line: repeats and their endings. @param has_count  states how often a passage is
+    /// played, if not twice
+    std::string turn(std::int64_t onset, bool has_count) const {
+        const RepeatSigns signs = signs_at(notation_.repeats, onset);
+        std::string text;
+        if (signs.closed) text += "} } ";
+        if (signs.ended && has_count && signs.ended->times > 2 && !signs.ended->has_endings()) {
+            text += fmt::format("\\textEndMark \"{}\" ", count_of_repeats(*signs.ended));
+        }
+        if (signs.ended) text += signs.ended->has_endings() ? "} { " : "} ";
+        if (signs.first_ending) text += "} \\alternative { { ";
+        if (signs.begun) text += fmt::format("\\repeat volta {} {{ ", signs.begun->times);
+        return text;
+    }
+
     /// A skip of some ticks.
     void skip(std::int64_t from, std::int64_t to) {
         if (to > from) put(" s1*{}/{}", to - from, 4 * ticks_per_quarter);
@@ -435,12 +454,24 @@ private:
         if (std::none_of(voice.symbols.begin(), voice.symbols.end(), is_sung)) return;
         put("    \\new Lyrics \\lyricmode {{\n     ");
         std::int64_t here = 0;
+        const auto go_to = [&](std::int64_t onset) {
+            if (onset > here) put(" \\skip 1*{}/{}", onset - here, 4 * ticks_per_quarter);
+            here = std::max(here, onset);
+        };
+        const auto turn_at = [&](std::int64_t onset) {
+            const std::string turns = turn(onset, false);
+            if (turns.empty()) return;
+            go_to(onset);
+            put(" {}", turns.substr(0, turns.size() - 1));
+        };
         for (const NotatedSymbol& symbol : voice.symbols) {
+            turn_at(symbol.onset);
             if (!is_sung(symbol)) continue;
-            if (symbol.onset > here) put(" \\skip 1*{}/{}", symbol.onset - here, 4 * ticks_per_quarter);
+            go_to(symbol.onset);
             put(" {}1*{}/{}", lilypond_string(symbol.syllable), symbol.length, 4 * ticks_per_quarter);
             here = symbol.onset + symbol.length;
         }
+        turn_at(notation_.end());
         put("\n    }}\n");
     }
 
@@ -474,21 +505,26 @@ private:
     void write_cue(const Cue& cue) {
         put("      \\new CueVoice {{\n        \\voiceOne s1*{}/{} <>^\\markup \\tiny {}\n", cue.from,
             4 * ticks_per_quarter, lilypond_string(cue.name));
-        write_voice(cue.voice, {}, {}, {}, {});
+        write_voice(cue.voice, {}, {}, {}, {}, true);
         put("\n      }}\n");
     }
 
     /// Writes dynamics that stand between the staves of two hands, or below several voices.
     void write_dynamics(const std::vector<DynamicMark>& marks) {
         if (marks.empty()) return;
+        std::set<std::int64_t> places;
+        for (const DynamicMark& mark : marks) places.insert(mark.onset);
+        for (const std::int64_t border : borders_of(notation_.repeats)) places.insert(border);
         put("     ");
-        skip(0, marks.front().onset);
-        for (std::size_t i = 0; i < marks.size();) {
-            const std::int64_t onset = marks[i].onset;
-            std::string together;
-            for (; i < marks.size() && marks[i].onset == onset; ++i) together += mark_text(marks[i]);
-            skip(onset, i < marks.size() ? marks[i].onset : notation_.end());
-            put("{}", together);
+        skip(0, *places.begin());
+        auto mark = marks.begin();
+        for (auto place = places.begin(); place != places.end();) {
+            const std::int64_t onset = *place++;
+            if (const std::string turns = turn(onset, false); !turns.empty()) {
+                put(" {}", turns.substr(0, turns.size() - 1));
+            }
+            skip(onset, place != places.end() ? *place : notation_.end());
+            for (; mark != marks.end() && mark->onset == onset; ++mark) put("{}", mark_text(*mark));
         }
         put("\n");
     }
@@ -501,8 +537,9 @@ private:
 
     /// Writes a clef or a line of 8va that begins with a symbol; the first clef is written already.
     void write_change(const StaffChange& change, Clef& clef, int& octaves) {
-        if (change.clef != clef) put("\\clef {} ", clef_name(change.clef));
-        if (change.octaves != octaves) put("\\ottava #{} ", change.octaves);
+        if (change.clef == clef && change.restates_clef) put("\\set Staff.forceClef = ##t ");
+        if (change.clef != clef || change.restates_clef) put("\\clef {} ", clef_name(change.clef));
+        if (change.octaves != octaves || change.restarts_line) put("\\ottava #{} ", change.octaves);
         clef = change.clef;
         octaves = change.octaves;
     }
@@ -511,7 +548,7 @@ private:
     /// @param sections  changes of tempo and meter; empty for all voices but one
     void write_voice(const NotatedVoice& voice, const std::vector<StaffChange>& changes,
                      std::span<const KeyChange> keys, const std::vector<DynamicMark>& marks,
-                     std::span<const SectionChange> sections) {
+                     std::span<const SectionChange> sections, bool is_cue = false) {
         const BarLines& bar_lines = notation_.bar_lines;
         auto section = sections.begin();
         auto change = changes.begin();
@@ -520,9 +557,13 @@ private:
         Clef clef = changes.empty() ? Clef::treble : changes.front().clef;
         int octaves = 0;
         int tuplet = -1;
+        const bool is_first = &voice == &notation_.parts.front().staves.front().voices.front();
         put("        ");
         for (std::size_t i = 0; i < voice.symbols.size(); ++i) {
             const NotatedSymbol& symbol = voice.symbols[i];
+            if (const std::string turns = is_cue ? "" : turn(symbol.onset, is_first); !turns.empty()) {
+                put("{}\n        ", turns.substr(0, turns.size() - 1));
+            }
             for (; key != keys.end() && key->onset <= symbol.onset; ++key) {
                 put("{} ", key->key ? key_name(*key->key) : "\\key c \\major");
             }
@@ -552,14 +593,18 @@ private:
             if (tuplet >= 0 && end == voice.tuplets[static_cast<std::size_t>(tuplet)].to) put("}} ");
             if (bar_lines.place(end) != 0) continue;
             const bool is_last = end == notation_.end();
+            const bool ends_with_sign = signs_at(notation_.repeats, end).ended != nullptr;
             if (is_last && octaves != 0) put("\\ottava #0 ");
             const std::vector<std::int64_t>& doubled = notation_.double_bars;
             put("{}| % {}\n",
-                is_last && !notation_.is_cut                              ? "\\bar \"|.\" "
+                is_last && !notation_.is_cut && !ends_with_sign           ? "\\bar \"|.\" "
                 : std::binary_search(doubled.begin(), doubled.end(), end) ? "\\bar \"||\" "
                                                                           : "",
                 head_.first_bar - 2 + bar_lines.printed_number(end));
             if (!is_last) put("        ");
+            if (const std::string turns = is_last && !is_cue ? turn(end, is_first) : ""; !turns.empty()) {
+                put("        {}\n", turns.substr(0, turns.size() - 1));
+            }
         }
     }
 

@@ -82,7 +82,7 @@ private:
     /// Sets the ticks of a division: the largest number that divides every duration.
     void find_unit() {
         unit_ = std::gcd(ticks_per_quarter, head_.meter.bar());
-        for (const SectionChange& change : head_.changes) unit_ = std::gcd(unit_, change.to.meter.bar());
+        for (const SectionChange& change : notation_.changes) unit_ = std::gcd(unit_, change.to.meter.bar());
         each_symbol(notation_, [&](const NotatedSymbol& symbol) { unit_ = std::gcd(unit_, symbol.length); });
     }
 
@@ -183,7 +183,7 @@ private:
             states.push_back({&staff, states.size(), staff.changes.front().clef});
         }
         std::size_t key = 0;
-        auto change = head_.changes.begin();
+        auto change = notation_.changes.begin();
         TempoAndMeter before = tempo_and_meter_of(head_);
         const std::vector<std::int64_t>& doubled = notation_.double_bars;
         for (std::int64_t bar = 0; bar < notation_.bars; ++bar) {
@@ -191,10 +191,11 @@ private:
             put("<measure number=\"{}\"{}>\n",
                 head_.first_bar - 1 + notation_.bar_lines.printed_number(notation_.bar_lines.onset(bar)),
                 is_upbeat ? " implicit=\"yes\"" : "");
-            if (bar == 0) write_attributes(part);
             const std::int64_t begin = notation_.bar_lines.onset(bar);
+            write_left_signs(begin);
+            if (bar == 0) write_attributes(part);
             const bool has_key = key + 1 < keys.size() && keys[key + 1].onset == begin;
-            const bool has_change = change != head_.changes.end() && change->onset == begin;
+            const bool has_change = change != notation_.changes.end() && change->onset == begin;
             const bool has_meter = has_change && change->to.meter != before.meter;
             if (has_key || has_meter) {
                 put("<attributes>\n");
@@ -235,14 +236,60 @@ private:
             }
             // A bar ends where its last voice did.
             go_to(notation_.bar_lines.onset(bar + 1));
-            if (bar + 1 == notation_.bars && !notation_.is_cut) {
-                put("<barline location=\"right\"><bar-style>light-heavy</bar-style></barline>\n");
-            } else if (std::binary_search(doubled.begin(), doubled.end(), here_)) {
-                put("<barline location=\"right\"><bar-style>light-light</bar-style></barline>\n");
-            }
+            const bool is_last = bar + 1 == notation_.bars && !notation_.is_cut;
+            write_right_signs(is_last                                                     ? "light-heavy"
+                              : std::binary_search(doubled.begin(), doubled.end(), here_) ? "light-light"
+                                                                                          : "",
+                              index == 0);
             put("</measure>\n");
         }
         put("</part>\n");
+    }
+
+    /// Writes the repeat and the ending that begin with a bar.
+    void write_left_signs(std::int64_t begin) {
+        const RepeatSigns signs = signs_at(notation_.repeats, begin);
+        if (signs.begun) {
+            put("<barline location=\"left\"><bar-style>heavy-light</bar-style><repeat direction=\"forward\"/>"
+                "</barline>\n");
+        }
+        if (signs.first_ending) {
+            put("<barline location=\"left\"><ending number=\"{}\" type=\"start\">{}.</ending></barline>\n",
+                passes_of_first_ending(*signs.first_ending, ","), passes_of_first_ending(*signs.first_ending, "., "));
+        }
+        if (signs.ended && signs.ended->has_endings()) {
+            put("<barline location=\"left\"><ending number=\"{0}\" type=\"start\">{0}.</ending></barline>\n",
+                signs.ended->times);
+        }
+    }
+
+    /// Writes the bar line at the end of a bar, with the repeat or the ending that it ends. @param style  of the
+    /// line, if it is not that of a repeat; empty: a plain one
+    void write_right_signs(std::string_view style, bool has_count) {
+        const RepeatSigns signs = signs_at(notation_.repeats, here_);
+        if (!signs.ended && !signs.closed && style.empty()) return;
+        const PrintedRepeat* repeat = signs.ended;
+        if (repeat && has_count && repeat->times > 2 && !repeat->has_endings()) {
+            put("<direction placement=\"above\"><direction-type><words halign=\"right\">{}</words></direction-type>"
+                "</direction>\n",
+                count_of_repeats(*repeat));
+        }
+        put("<barline location=\"right\">");
+        if (repeat) style = "light-heavy";
+        if (!style.empty()) put("<bar-style>{}</bar-style>", style);
+        if (repeat && repeat->has_endings()) {
+            put("<ending number=\"{}\" type=\"stop\"/>", passes_of_first_ending(*repeat, ","));
+        }
+        // Its bracket is open unless the score ends.
+        if (signs.closed) {
+            put("<ending number=\"{}\" type=\"{}\"/>", signs.closed->times,
+                style == "light-heavy" ? "stop" : "discontinue");
+        }
+        if (repeat) {
+            put("<repeat direction=\"backward\"{}/>",
+                repeat->times > 2 ? fmt::format(" times=\"{}\"", repeat->times) : "");
+        }
+        put("</barline>\n");
     }
 
     void write_key(const std::optional<KeySignature>& key) {
@@ -332,12 +379,12 @@ private:
         for (; state.change < staff.changes.size() && staff.changes[state.change].onset < end; ++state.change) {
             const StaffChange& change = staff.changes[state.change];
             go_to(change.onset);
-            if (change.clef != state.clef) {
+            if (change.clef != state.clef || change.restates_clef) {
                 put("<attributes>\n");
                 write_clef(change.clef, part, state.index);
                 put("</attributes>\n");
             }
-            if (change.octaves != state.octaves) {
+            if (change.octaves != state.octaves || change.restarts_line) {
                 if (state.octaves != 0) write_shift(state, "stop", state.octaves);
                 if (change.octaves != 0) write_shift(state, change.octaves > 0 ? "down" : "up", change.octaves);
             }

@@ -5,6 +5,7 @@
 #include "music/score/dynamics.h"
 #include "music/score/labels.h"
 #include "music/score/notation_excerpt.h"
+#include "music/score/notation_repeats.h"
 #include "music/score/note_order.h"
 #include "music/score/signs.h"
 #include "music/score/spelling.h"
@@ -69,7 +70,8 @@ void hide_rests(Staff& staff, std::int64_t bars, const BarLines& bar_lines) {
 }
 
 /// Gives hands that state dynamics their own, if these are fewer marks.
-void divide_dynamics(const PartPlan& plan, const BarLines& bars, std::int64_t fresh_from, NotatedPart& notated) {
+void divide_dynamics(const PartPlan& plan, const BarLines& bars, std::int64_t fresh_from,
+                     std::span<const PrintedRepeat> repeats, NotatedPart& notated) {
     std::vector<std::vector<DynamicMark>> of_hands;
     std::size_t count = 0;
     bool is_stated = false;
@@ -81,7 +83,7 @@ void divide_dynamics(const PartPlan& plan, const BarLines& bars, std::int64_t fr
         sort_by_onset(notes);
         is_stated = is_stated || std::any_of(notes.begin(), notes.end(),
                                              [](const Note& note) { return note.emphasis.dynamic >= 0; });
-        of_hands.push_back(dynamics_of(notes, bars, fresh_from));
+        of_hands.push_back(dynamics_of(notes, bars, fresh_from, repeats));
         count += of_hands.back().size();
     }
     if (!is_stated || count >= notated.staves.front().dynamics.size()) return;
@@ -237,9 +239,10 @@ struct Slur {
     std::size_t last = 0;
 };
 
-/// Slurs over the notes of a phrase from one rest to the next: at least two, not all of one pitch, in at most four
-/// bars. Players who swing shape their phrases themselves.
-std::vector<Slur> slurs_of(const Part& part, const std::vector<Note>& notes, const BarLines& bars) {
+/// Slurs over the notes of a phrase from one rest, or bar line of `jumps`, to the next: at least two, not all of one
+/// pitch, in at most four bars. Players who swing shape their phrases themselves.
+std::vector<Slur> slurs_of(const Part& part, const std::vector<Note>& notes, const BarLines& bars,
+                           const std::vector<std::int64_t>& jumps) {
     constexpr std::int64_t most_bars_of_slur = 4;
     std::vector<Slur> slurs;
     if (!part.touch.has_phrases || part.swing.is_on() || part.touch.sounding < 1 || part.touch.is_by_depth ||
@@ -249,7 +252,8 @@ std::vector<Slur> slurs_of(const Part& part, const std::vector<Note>& notes, con
     for (std::size_t first = 0; first < notes.size();) {
         std::size_t last = first;
         bool differs = false;
-        while (last + 1 < notes.size() && notes[last].onset + notes[last].duration == notes[last + 1].onset) {
+        while (last + 1 < notes.size() && notes[last].onset + notes[last].duration == notes[last + 1].onset &&
+               !std::binary_search(jumps.begin(), jumps.end(), notes[last + 1].onset)) {
             ++last;
             differs = differs || notes[last].key != notes[first].key;
         }
@@ -370,6 +374,7 @@ Notator::Notator(const ScoreHead& head, const Bars& bars)
       syllables_(head.syllables),
       has_chord_signs_(head.has_chord_signs),
       has_graces_(head.has_graces),
+      most_repeats_(head.most_repeats),
       ritardando_(head.ritardando),
       printed_bars_(bars) {
     std::size_t voices = 0;
@@ -417,9 +422,6 @@ void Notator::finish(std::int64_t end) {
     }
     printed_bars_.first = std::min(printed_bars_.first, all_bars_ - 1);
     printed_bars_.count = std::min(printed_bars_.count, all_bars_ - printed_bars_.first);
-    notation_.bars = printed_bars_.count;
-    notation_.bar_lines = bar_lines_.from(first_tick());
-    notation_.is_cut = printed_bars_.first + printed_bars_.count < all_bars_;
     agree_on_swing();
     printed_ = share_parts(parts_, voices_, bar_lines_);
     share_chords();
@@ -431,6 +433,10 @@ void Notator::finish(std::int64_t end) {
     agree_on_keys(printed_, others);
     find_outside();
     for (std::size_t i = 0; i < printed_.size() && is_transposed_; ++i) transpose_part(i);
+    if (most_repeats_ > 1) end = fold_repeats(end);
+    notation_.bars = printed_bars_.count;
+    notation_.bar_lines = bar_lines_.from(first_tick());
+    notation_.is_cut = printed_bars_.first + printed_bars_.count < all_bars_;
     for (const auto& [place, chord] : chord_signs_) chords_by_onset_.emplace(place.second, chord);
     for (std::size_t i = 0; i < printed_.size(); ++i) notate_part(i);
     name_chords();
@@ -442,11 +448,12 @@ void Notator::finish(std::int64_t end) {
             if (key.onset > 0) bars.push_back(key.onset);
         }
     }
-    for (const SectionChange& change : changes_after(changes_, first_tick())) {
-        if (change.onset < notation_.end()) bars.push_back(change.onset);
-    }
+    notation_.changes = changes_after(changes_, first_tick());
+    std::erase_if(notation_.changes, [&](const SectionChange& change) { return change.onset >= notation_.end(); });
+    for (const SectionChange& change : notation_.changes) bars.push_back(change.onset);
     std::sort(bars.begin(), bars.end());
     bars.erase(std::unique(bars.begin(), bars.end()), bars.end());
+    std::erase_if(bars, [&](std::int64_t onset) { return signs_at(notation_.repeats, onset).has_sign(); });
 }
 
 /// Moves notes into chords: those that begin with the same symbol as a note of an earlier voice, and in an
@@ -535,52 +542,6 @@ void Notator::transpose_part(std::size_t index) {
     }
 }
 
-/// The chords of the score and their onsets: in each bar those of the first part that has any. One that is struck
-/// late in a bar, with nothing of the chord before it, belongs to the whole bar.
-std::vector<std::pair<std::int64_t, ChordSign>> Notator::changes_of_chords() const {
-    std::map<std::int64_t, std::size_t> part_of_bar;
-    for (const auto& [place, chord] : chord_signs_) {
-        part_of_bar.try_emplace(bar_lines_.number(place.second), place.first);
-    }
-    std::map<std::int64_t, std::pair<std::int64_t, ChordSign>> chords;  // by onset
-    for (const auto& [place, chord] : chord_signs_) {
-        if (part_of_bar.at(bar_lines_.number(place.second)) == place.first) chords.emplace(place.second, chord);
-    }
-    std::vector<std::pair<std::int64_t, ChordSign>> changes;
-    std::int64_t sounds_until = 0;
-    ChordSign before;
-    for (const auto& [onset, chord] : chords) {
-        const auto& [end, sign] = chord;
-        const std::int64_t bar_begin = std::max<std::int64_t>(0, bar_lines_.begin(onset));
-        if (sign != before) changes.emplace_back(sounds_until <= bar_begin ? bar_begin : onset, sign);
-        sounds_until = std::max(sounds_until, end);
-        before = sign;
-    }
-    return changes;
-}
-
-/// Names the chords above the first part with pitches.
-void Notator::name_chords() {
-    const auto first = std::find_if(printed_.begin(), printed_.end(), [](const PrintedPart& one) {
-        return !one.part.is_drums && !one.part.is_accompaniment;
-    });
-    if (!has_chord_signs_ || first == printed_.end()) return;
-    NotatedPart& part = notation_.parts[static_cast<std::size_t>(first - printed_.begin())];
-    const int up = part.transposition ? part.transposition->semitones : 0;
-    for (const auto& [onset, sign] : changes_of_chords()) {
-        const std::array<Spelling, 12>& spelling = first->key_at(onset).spelling;
-        const auto written = [&](int pitch_class) { return spelled(60 + pitch_class + up, spelling); };
-        ChordMark mark{onset, sign.quality, written(sign.root), {}};
-        if (sign.bass >= 0) mark.bass = written(sign.bass);
-        part.chords.push_back(mark);
-    }
-    part.chords = cut_chords(part.chords, first_tick(), first_tick() + notation_.end());
-    // A score does not begin with the end of a chord.
-    while (!part.chords.empty() && part.chords.front().quality < 0) part.chords.erase(part.chords.begin());
-    notation_.nameless_chords = static_cast<std::uint64_t>(std::count_if(
-        part.chords.begin(), part.chords.end(), [](const ChordMark& chord) { return chord.quality < 0; }));
-}
-
 /// Counts notes that their instrument cannot play.
 void Notator::find_outside() {
     for (const PrintedPart& printed : printed_) {
@@ -635,7 +596,8 @@ void Notator::cut(NotatedPart& part) const {
 
 void Notator::finish_staff(Staff& staff, const NotatedPart& part) const {
     hide_rests(staff, notation_.bars, notation_.bar_lines);
-    if (!part.part.is_drums) set_signs(staff, part.keys, part.part.is_accompaniment, notation_.bar_lines);
+    if (part.part.is_drums) return;
+    set_signs(staff, part.keys, part.part.is_accompaniment, notation_.bar_lines, entries_of(notation_.repeats));
 }
 
 /// Drums have one staff for up to four lines.
@@ -658,7 +620,7 @@ void Notator::notate_drums(std::size_t index) {
         }
         if (drums_of(staff).size() == 1) set_on_one_line(staff);
         sort_by_onset(together);
-        staff.dynamics = dynamics_of(together, bar_lines_, first_tick());
+        staff.dynamics = dynamics_of(together, bar_lines_, first_tick(), repeats_);
     }
     cut(notated);
     for (Staff& staff : notated.staves) finish_staff(staff, notated);
@@ -688,11 +650,12 @@ void Notator::notate_part(std::size_t index) {
                 symbol.syllable = staff.voices.size() > 1 ? "" : symbol.syllable;
         }
         staff.changes = choose_clefs(part, planned.clef, staff.voices, bar_lines_);
+        if (!repeats_.empty()) restate_clefs(staff.changes, repeats_);
         sort_by_onset(together);
         Staff& marked = plan.bracket == Bracket::brace ? notated.staves.front() : staff;
-        marked.dynamics = dynamics_of(together, bar_lines_, first_tick());
+        marked.dynamics = dynamics_of(together, bar_lines_, first_tick(), repeats_);
     }
-    if (plan.bracket == Bracket::brace) divide_dynamics(plan, bar_lines_, first_tick(), notated);
+    if (plan.bracket == Bracket::brace) divide_dynamics(plan, bar_lines_, first_tick(), repeats_, notated);
     if (is_without_dynamics(part.program)) {
         for (Staff& staff : notated.staves) staff.dynamics.clear();
     }
@@ -749,7 +712,7 @@ NotatedVoice Notator::fill(int number, std::vector<Note> notes, std::size_t inde
     VoiceWriter writer(grid, bar_lines_, voice);
     const std::vector<bool> accents = accents_of(notes, bar_lines_);
     const bool is_loud_by_touch = !is_without_dynamics(part.part.program);
-    const std::vector<Slur> slurs = slurs_of(part.part, notes, bar_lines_);
+    const std::vector<Slur> slurs = slurs_of(part.part, notes, bar_lines_, jumps_of(repeats_));
     auto slur = slurs.begin();
     for (std::size_t i = 0; i < notes.size(); ++i) {
         const Note& note = notes[i];

@@ -4,6 +4,7 @@
 #include "music/score/bar_lines.h"
 #include "music/score/instruments.h"
 #include "music/score/pitch.h"
+#include "music/score/repeats.h"
 #include "music/score/rhythm.h"
 #include "music/score/score.h"
 #include "music/score/turns.h"
@@ -93,7 +94,9 @@ struct NotatedVoice {
 struct StaffChange {
     std::int64_t onset = 0;
     Clef clef = Clef::treble;
-    int octaves = 0;  ///< octaves by which notes are written lower: -1 8vb, 1 8va, 2 15ma, 3 22ma
+    int octaves = 0;             ///< octaves by which notes are written lower: -1 8vb, 1 8va, 2 15ma, 3 22ma
+    bool restates_clef = false;  ///< the clef is printed even if it is in force
+    bool restarts_line = false;  ///< a line of 8va ends, even if another one of the same octave begins
     bool operator==(const StaffChange&) const = default;
 };
 
@@ -153,7 +156,9 @@ struct NotatedPart {
 /// A score as it is printed; parts in the order of ScoreHead::parts, with those that take turns as one.
 struct Notation {
     std::vector<NotatedPart> parts;
+    std::vector<SectionChange> changes;     ///< of tempo and meter, ascending, after the beginning
     std::vector<std::int64_t> double_bars;  ///< bar lines at which key, tempo or meter change: ticks, ascending
+    std::vector<PrintedRepeat> repeats;     ///< ascending; they have signs instead of double bars
     bool is_held = false;                   ///< it ends with fermatas
     std::int64_t bars = 1;
     BarLines bar_lines;        ///< from the first printed bar on
@@ -172,6 +177,16 @@ struct Notation {
     }
     /// The tick at which it ends.
     std::int64_t end() const { return bar_lines.onset(bars); }
+    /// Bars with all repeats.
+    std::int64_t played_bars() const {
+        std::int64_t played = bars;
+        for (const PrintedRepeat& repeat : repeats) {
+            const auto times = static_cast<std::int64_t>(repeat.times);
+            played += (times - 1) * (bar_lines.number(repeat.end) - bar_lines.number(repeat.begin)) -
+                      (bar_lines.number(repeat.last) - bar_lines.number(repeat.end));
+        }
+        return played;
+    }
     /// Bars that a symbol stands for: several for rests and gaps of a whole bar that are gathered.
     std::int64_t bars_of(const NotatedSymbol& symbol) const {
         return is_whole_rest(symbol) ? bars_of_rest(symbol.onset) : 1;
@@ -201,6 +216,9 @@ class TooLongToPrint : public ScoreError {
 /// off every grid are rounded to 64ths, but never to length 0: a note that would vanish delays the next one.
 /// Staves: each voice has its own; see staves.h. Voices that never sound are left out. Parts of one instrument that
 /// take turns share staves; see turns.h. Drum strokes are divided between hands and feet; see strokes.h.
+/// Repeats: if the head asks for repeat signs, passages that follow themselves are written once; see repeats.h.
+/// Slurs, hairpins and lines of 8va do not cross their signs, and dynamics and chords are stated again where the one
+/// before a sign depends on the way there.
 /// Pitches: written as Part::spelling says; half-way between two semitones with a quarter-tone sign. Other pitches
 /// have their deviation in cents.
 /// Memory: O(notes + bars).
@@ -228,6 +246,7 @@ private:
 
     void notate_part(std::size_t index);
     std::int64_t first_tick() const { return bar_lines_.onset(printed_bars_.first); }
+    std::int64_t fold_repeats(std::int64_t end);
     void cut(NotatedPart& part) const;
     void finish_staff(Staff& staff, const NotatedPart& part) const;
     void mark_ending(std::int64_t end);
@@ -255,12 +274,14 @@ private:
     Syllables syllables_;
     bool has_chord_signs_;
     bool has_graces_;
+    std::size_t most_repeats_;
     std::int64_t ritardando_;  ///< ticks before the end; 0: none
     Bars printed_bars_;
     std::int64_t all_bars_ = 1;
     std::vector<std::size_t> part_indices_;  ///< by voice
     std::vector<std::vector<Note>> voices_;
     std::vector<PrintedPart> printed_;
+    std::vector<PrintedRepeat> repeats_;  ///< in ticks as bar_lines_
     /// Other notes of chords, by the part (of parts_, later of printed_), symbol and onset of their first note.
     std::map<ChordPlace, std::vector<double>> chords_;
     /// Chords that sound, by part and onset, with their ends.

@@ -145,11 +145,13 @@ NotatedVoice copied(const NotatedVoice& source, std::int64_t from, std::int64_t 
     return copy;
 }
 
+/// @param jumps  bar lines of repeats, which a cue does not cross: what is heard before them depends on the pass
 void add_cue(NotatedPart& player, const Staff& own, const std::vector<Line>& lines, std::int64_t entry,
-             const BarLines& bars) {
+             const BarLines& bars, const std::vector<std::int64_t>& jumps) {
     const std::int64_t to = bars.onset(entry);
     const std::int64_t last_bar = bars.onset(entry - 1);
     std::int64_t from = bars.onset(entry - most_cue_bars);
+    if (std::binary_search(jumps.begin(), jumps.end(), last_bar)) from = last_bar;
     const auto source = source_of(lines, own, from, last_bar, to);
     if (!source) return;
     while (onsets_in(*source->voice, from, bars.end(from)) == 0) from = bars.end(from);
@@ -171,14 +173,17 @@ void add_cue(NotatedPart& player, const Staff& own, const std::vector<Line>& lin
 
 void add_cues(Notation& player, const Staff& own, const std::vector<Line>& lines) {
     const std::vector<bool> silent = silent_bars(player.parts.front(), player);
+    const std::vector<std::int64_t> jumps = jumps_of(player.repeats);
     std::int64_t rests = 0;
     for (std::int64_t bar = 0; bar < player.bars; ++bar) {
         if (silent[static_cast<std::size_t>(bar)]) {
             ++rests;
             continue;
         }
-        if (rests >= fewest_rests_before_cue) {
-            add_cue(player.parts.front(), own, lines, bar, player.bar_lines);
+        // Before an entry behind a sign that leads back, a cue would also be read when the player does not enter.
+        const bool follows_repeat = signs_at(player.repeats, player.bar_lines.onset(bar)).ended;
+        if (rests >= fewest_rests_before_cue && !follows_repeat) {
+            add_cue(player.parts.front(), own, lines, bar, player.bar_lines, jumps);
         }
         rests = 0;
     }
@@ -192,6 +197,7 @@ std::set<std::int64_t> breaks_of(const Notation& player) {
     std::set<std::int64_t> breaks;
     const auto add = [&](std::int64_t onset) { breaks.insert(player.bar_lines.number(onset)); };
     for (const std::int64_t onset : player.double_bars) add(onset);
+    for (const std::int64_t onset : borders_of(player.repeats)) add(onset);
     for (const KeyChange& key : part.keys) add(key.onset);
     for (const Staff& staff : part.staves) {
         for (const StaffChange& change : staff.changes) add(change.onset);
@@ -221,10 +227,12 @@ void gather_rests(Notation& player) {
     }
 }
 
-/// Moves the names of chords over bars of rest to the next entry.
+/// Moves the names of chords over bars of rest to the bar where the player enters, unless a repeat or a second ending
+/// begins before it.
 void move_silent_chords(Notation& player) {
     const std::vector<bool> silent = silent_bars(player.parts.front(), player);
     std::vector<ChordMark> kept;
+    const std::vector<std::int64_t> turns = entries_of(player.repeats);
     const auto next_entry = [&](std::int64_t onset) {
         auto bar = static_cast<std::size_t>(player.bar_lines.number(onset));
         while (bar < silent.size() && silent[bar]) ++bar;
@@ -232,7 +240,10 @@ void move_silent_chords(Notation& player) {
     };
     for (ChordMark chord : player.parts.front().chords) {
         const bool is_silent = silent[static_cast<std::size_t>(player.bar_lines.number(chord.onset))];
+        const std::int64_t before = chord.onset;
         if (is_silent) chord.onset = next_entry(chord.onset);
+        const auto turn = std::upper_bound(turns.begin(), turns.end(), before);
+        if (turn != turns.end() && *turn <= chord.onset) continue;
         // The last one before an entry is in force there.
         if (!kept.empty() && kept.back().onset == chord.onset) kept.pop_back();
         if (chord.onset < player.end()) kept.push_back(chord);
@@ -276,7 +287,9 @@ std::vector<PlayerPart> player_parts(const Notation& score, bool has_cues) {
             PlayerPart& player = players.emplace_back();
             player.name = line_name(part.name, i, is_divided ? part.staves.size() : 1);
             Notation& notation = player.notation;
+            notation.changes = score.changes;
             notation.double_bars = score.double_bars;
+            notation.repeats = score.repeats;
             notation.is_held = score.is_held;
             notation.bars = score.bars;
             notation.bar_lines = score.bar_lines;

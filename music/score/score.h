@@ -232,6 +232,8 @@ struct ScoreHead {
     Syllables syllables = Syllables::none;  ///< print: under the notes
     bool has_chord_signs = false;           ///< print: chords are named above the first staff
     bool has_graces = false;                ///< print: gamakas are grace notes
+    /// Print: how often a passage between repeat signs is played at most; 1: no repeat signs.
+    std::size_t most_repeats = 1;
     std::vector<Part> parts;
 
     /// True if a section or the ritardando changes the tempo.

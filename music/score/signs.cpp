@@ -10,16 +10,18 @@
 namespace sikku {
 namespace {
 
-void set_cents(Staff& staff, bool is_accompaniment, const BarLines& bars) {
+void set_cents(Staff& staff, bool is_accompaniment, const BarLines& bars, std::span<const std::int64_t> entries) {
     for (NotatedVoice& voice : staff.voices) {
         std::int64_t current_bar = -1;
+        auto current_entry = entries.begin();
         std::map<std::pair<int, int>, int> in_force;
         for (NotatedSymbol& symbol : voice.symbols) {
             if (symbol.kind != SymbolKind::note) continue;
-            if (!is_accompaniment && bars.number(symbol.onset) != current_bar) {
-                current_bar = bars.number(symbol.onset);
-                in_force.clear();
-            }
+            const auto entry = std::upper_bound(current_entry, entries.end(), symbol.onset);
+            const bool is_new_bar = !is_accompaniment && bars.number(symbol.onset) != current_bar;
+            if (is_new_bar || entry != current_entry) in_force.clear();
+            current_bar = bars.number(symbol.onset);
+            current_entry = entry;
             const auto set = [&](const Pitch& pitch, int& printed) {
                 int& last = in_force[{pitch.height(), pitch.quarters}];
                 const int cents = printed;
@@ -68,9 +70,10 @@ void set_accidentals(Staff& staff, std::span<const KeyChange> keys, const BarLin
     }
 }
 
-void set_signs(Staff& staff, std::span<const KeyChange> keys, bool is_accompaniment, const BarLines& bars) {
+void set_signs(Staff& staff, std::span<const KeyChange> keys, bool is_accompaniment, const BarLines& bars,
+               std::span<const std::int64_t> entries) {
     set_accidentals(staff, keys, bars);
-    set_cents(staff, is_accompaniment, bars);
+    set_cents(staff, is_accompaniment, bars, entries);
 }
 
 }  // namespace sikku

@@ -65,6 +65,6 @@ else
     echo "skipped: export through Inkscape (it is not installed)"
 fi
 
-for part in scores readers sound page model kolam gallery slurm latency chaos vpype cad; do
+for part in scores readers repeats sound page model kolam gallery slurm latency chaos vpype cad; do
     tests/full/"$part".sh "$program"
 done
