@@ -18,6 +18,8 @@ full_packages=(clang libclang-rt-14-dev libc++-13-dev inkscape lilypond musescor
 # For building packages and testing their contents.
 packaging_packages=(debhelper dh-python fakeroot patchelf pybind11-dev python3-dev python3-numpy python3-setuptools
     python3-wheel python3-pip unzip)
+# For packaging/site.sh.
+site_packages=(cmark-gfm python3)
 # For packaging/release.sh: these, and the packages that the slim OpenImageIO is built from.
 release_packages=("${packaging_packages[@]}" libboost-thread-dev libopenexr-dev libtiff-dev libjpeg-dev libpng-dev
     libwebp-dev robin-map-dev)
