@@ -444,7 +444,7 @@ private:
         Integer bars = 0;
         for (const Player& player : ensemble.players) {
             const auto known = census(player.document.grammar(), player.melody);
-            if (!known || player.melody.layout.needs_whole()) {
+            if (!known || player.melody.layout.needs_whole() || !ensemble.form.empty()) {
                 throw ScoreError("the requested bars contain no notes: the melody ends before them");
             }
             bars = std::max(bars, last_bar(known->ticks, player.melody));

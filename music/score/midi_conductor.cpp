@@ -147,7 +147,7 @@ std::vector<ConductorChange> Conductor::changes(std::int64_t end) const {
     std::string key = key_bytes(first_key(*head_));
     for (const KeyChange& change : head_->keys) {
         if (key_bytes(change.key) != std::exchange(key, key_bytes(change.key)))
-            insert({change.onset, 0, nullptr, &change});
+            insert({std::min(change.onset, end), 0, nullptr, &change});
     }
     return result;
 }

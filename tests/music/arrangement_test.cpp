@@ -420,15 +420,22 @@ TEST(Arrangement, MidiHasTheKeysOfSections) {
     EXPECT_EQ(written(all, {{"transpose", "2"}}), " 0:2 1920:-1 5760:2 7680:0 9600:-1");
 }
 
+TEST(Arrangement, BarsAfterAFormAreRefused) {
+    const std::string text = "form = \"A B A\"\n" + track("section = \"A\"\n") + track("section = \"B\"\n");
+    // The melodies end in bar 1, the piece in bar 3.
+    EXPECT_EQ(error_of([&] {
+                  notes_of(text, {{"from-bar", "4"}});
+              }),
+              "the requested bars contain no notes: the melody ends before them");
+    EXPECT_FALSE(notes_of(text, {{"from-bar", "3"}}).notes.empty());
+}
+
 TEST(Arrangement, KeysOfSectionsChangeAtBarLinesAfterAnUpbeat) {
     const auto written = [](const std::string& text, const OptionValues& values = {}) {
         MemoryDestination memory;
         plan_score(read(text), "mid", values)->make(memory, "score", {});
         const std::string bytes = memory.take("score");
         EXPECT_EQ(midi_faults(bytes), "");
-        // Bars by the meters of the file itself: the upbeat, then full bars.
-        const std::string meters = tempos_and_meters(bytes);
-        EXPECT_EQ(meters.ends_with(" 0:1/8 240:4/4"), values.empty() || values.front().name != "from-bar") << meters;
         return signatures(bytes);
     };
     const std::string keys = "[[section]]\nname = \"B\"\ntonic = \"Eb4\"\n";
@@ -437,13 +444,15 @@ TEST(Arrangement, KeysOfSectionsChangeAtBarLinesAfterAnUpbeat) {
     const std::string form = "form = \"A B A\"\n" + keys;
     const std::string upbeat = "upbeat = \"1/8\"\n";
     // Sections last a bar each: the notes of an eighth before it and of four eighths in it.
-    for (const std::string& text : {form + a + upbeat + b, form + a + b + upbeat, form + a + upbeat + b + upbeat}) {
+    for (const std::string& text : {form + a + upbeat + b, form + a + upbeat + b + upbeat}) {
         EXPECT_EQ(written(text), " 0:0 2160:-3 4080:0");
         EXPECT_EQ(written(text, {{"midi-format", "0"}}), " 0:0 2160:-3 4080:0");
         EXPECT_EQ(written(text, {{"tuning", "mpe"}}), " 0:0 2160:-3 4080:0");
         EXPECT_EQ(written(text, {{"from-bar", "2"}}), " 0:-3 1920:0");
         EXPECT_EQ(written(text, {{"from-bar", "3"}, {"bars", "1"}}), " 0:0");
     }
+    // An upbeat of B alone sounds in the bar before.
+    EXPECT_EQ(written(form + a + b + upbeat), " 0:0 1920:-3 3840:0");
 }
 
 TEST(Arrangement, KeysOfSectionsAreChecked) {
