@@ -355,10 +355,10 @@ function playOn() {
   begin();
 }
 function setLoop(from, to) {
-  const bars = Math.ceil(barAt(end));
+  const bars = Math.max(1, Math.ceil(barAt(end)));
   const first = Math.min(Math.max(1, Math.round(from) || 1), bars);
   const last = Math.min(Math.max(first, Math.round(to) || first), bars);
-  loop = {from: tickOf(first - 1), to: Math.min(tickOf(last), end)};
+  loop = {from: first === 1 ? 0 : tickOf(first - 1), to: Math.min(tickOf(last), end)};
   loopFrom.value = first; loopTo.value = last;
   loopButton.setAttribute("aria-pressed", "true");
   if (playing) {
@@ -633,7 +633,7 @@ function draw() {
   const tick = shownTick();
   drawCurve(tick);
   drawRoll(tick);
-  const bars = Math.ceil(barAt(end)), here = Math.min(bars, Math.floor(barAt(tick)) + 1);
+  const bars = Math.max(1, Math.ceil(barAt(end))), here = Math.min(bars, Math.floor(barAt(tick)) + 1);
   const text = seconds(tick) + " / " + seconds(end);
   if (document.activeElement !== place || !dragging) place.value = tick / end * 1000;
   if (text + here !== shownText) {
@@ -690,7 +690,7 @@ if (parts.length > 1) {
   box.append(colour);
 }
 const loopButton = element("loop"), loopFrom = element("loop-from"), loopTo = element("loop-to");
-loopFrom.max = loopTo.max = loopTo.value = Math.ceil(barAt(end));
+loopFrom.max = loopTo.max = loopTo.value = Math.max(1, Math.ceil(barAt(end)));
 loopButton.addEventListener("click", () => loop ? endLoop() : setLoop(Number(loopFrom.value), Number(loopTo.value)));
 for (const input of [loopFrom, loopTo]) {
   input.addEventListener("change", () => { if (loop) setLoop(Number(loopFrom.value), Number(loopTo.value)); });
@@ -737,7 +737,7 @@ document.addEventListener("keydown", event => {
   } else if (event.shiftKey && (event.key === "ArrowLeft" || event.key === "ArrowRight")) {
     seekPhrase(event.key === "ArrowLeft");
   } else if (event.key === "ArrowLeft") {
-    seek(tickOf(Math.max(0, barAt(tickAt(clock())) - 1)));
+    seek(Math.max(0, tickOf(barAt(tickAt(clock())) - 1)));
   } else if (event.key === "ArrowRight") {
     seek(tickOf(barAt(tickAt(clock())) + 1));
   } else if (event.key === "Home") {
