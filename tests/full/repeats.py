@@ -150,7 +150,7 @@ def compare(folder: pathlib.Path) -> None:
                 total["exact"] += 1
             total[reader] += sum(plain.values())
             total[f"{reader} scores"] += 1
-    assert total["exact"] >= 40, "hardly any score is compared with our MIDI file"
+    assert total["exact"] >= 30, "hardly any score is compared with our MIDI file"
     for reader in ("musescore.mid", "abc.mid", "lilypond.midi"):
         print(f"repeats: {reader.split('.')[0]} plays {total[reader]} notes of {total[f'{reader} scores']} scores alike with and without signs")
     print(f"repeats: {total['exact']} of them as in our MIDI files")
