@@ -10,11 +10,11 @@
 #include "engine/check.h"
 #include "engine/derivation/forecast.h"
 #include "engine/derivation/word_printer.h"
-#include "engine/language/command_table.h"
 #include "engine/map/map_step.h"
 #include "engine/measurement.h"
 #include "music/scores.h"
 #include "studio/bridge_answers.h"
+#include "studio/editor/help.h"
 
 #include <algorithm>
 #include <array>
@@ -107,14 +107,8 @@ Json answer_help() {
                         {"help", key.help}});
     }
     Json symbols = Json::array();
-    for (const SymbolHelp& row : turtle_symbols()) {
-        std::string_view rest = row.symbols;
-        while (!rest.empty()) {
-            const std::size_t end = std::min(rest.find(' '), rest.size());
-            symbols.push_back({{"symbol", rest.substr(0, end)}, {"help", row.help}});
-            rest.remove_prefix(std::min(end + 1, rest.size()));
-        }
-    }
+    for (const SymbolHelp& row : single_turtle_symbols())
+        symbols.push_back({{"symbol", row.symbols}, {"help", row.help}});
     Json sizes = Json::object();
     for (const PaperSize& paper : paper_sizes()) sizes[std::string(paper.name)] = {paper.size.x, paper.size.y};
     return {{"version", SIKKU_VERSION},      {"sizes", std::move(sizes)}, {"keys", std::move(keys)},

@@ -3,34 +3,12 @@
 
 #include "engine/base/monitor.h"
 #include "engine/interpreter.h"
+#include "studio/editor/request_members.h"
 
-#include <nlohmann/json.hpp>
-#include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace sikku {
-
-using Json = nlohmann::ordered_json;
-
-/// Reports a request that does not conform to studio/page/protocol.ts.
-class BadRequest : public std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
-
-/// @throws BadRequest if the member is missing
-const Json& member(const Json& request, const std::string& name);
-/// @throws BadRequest if the member is not a string, or is missing and there is no `otherwise`
-std::string text_of(const Json& request, const std::string& name);
-std::string text_of(const Json& request, const std::string& name, const std::string& otherwise);
-double number_of(const Json& request, const std::string& name, double otherwise);
-/// Parses a whole number in decimal digits.
-std::uint64_t whole_of(const Json& value, const std::string& name);
-bool flag_of(const Json& request, const std::string& name);
-
-/// Reads pairs of strings: `[["size", "A3"], …]`; empty if the member is missing.
-std::vector<std::pair<std::string, std::string>> pairs_of(const Json& request, const std::string& name);
 
 /// The interpreter that a request names: `draw` or `play`. @throws BadRequest
 const Interpreter& interpreter_of(const Json& request);

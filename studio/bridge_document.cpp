@@ -14,70 +14,18 @@
 #include "music/score/midi_texts.h"
 #include "music/scores.h"
 #include "studio/bridge_answers.h"
+#include "studio/editor/measures.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <deque>
 #include <fstream>
 #include <utility>
 
 namespace sikku {
-
-const Json& member(const Json& request, const std::string& name) {
-    const auto found = request.find(name);
-    if (found == request.end()) throw BadRequest("'" + name + "' is missing");
-    return *found;
-}
-
-std::string text_of(const Json& request, const std::string& name) {
-    const Json& value = member(request, name);
-    if (!value.is_string()) throw BadRequest("'" + name + "' must be a string");
-    return value.get<std::string>();
-}
-
-std::string text_of(const Json& request, const std::string& name, const std::string& otherwise) {
-    return request.contains(name) ? text_of(request, name) : otherwise;
-}
-
-double number_of(const Json& request, const std::string& name, double otherwise) {
-    if (!request.contains(name)) return otherwise;
-    const Json& value = request[name];
-    if (!value.is_number()) throw BadRequest("'" + name + "' must be a number");
-    const auto number = value.get<double>();
-    if (!(std::fabs(number) < 1e9)) throw BadRequest("'" + name + "' is too large");
-    return number;
-}
-
-std::uint64_t whole_of(const Json& value, const std::string& name) {
-    const std::string text = value.is_string() ? value.get<std::string>() : std::string();
-    std::uint64_t number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (text.empty() || error != std::errc() || end != text.data() + text.size()) {
-        throw BadRequest("'" + name + "': expected a whole number as a string");
-    }
-    return number;
-}
-
-bool flag_of(const Json& request, const std::string& name) {
-    return request.contains(name) && request[name].is_boolean() && request[name].get<bool>();
-}
-
-std::vector<std::pair<std::string, std::string>> pairs_of(const Json& request, const std::string& name) {
-    std::vector<std::pair<std::string, std::string>> pairs;
-    if (!request.contains(name)) return pairs;
-    if (!request[name].is_array()) throw BadRequest("'" + name + "' must be a list of pairs of strings");
-    for (const Json& pair : request[name]) {
-        if (!pair.is_array() || pair.size() != 2 || !pair[0].is_string() || !pair[1].is_string()) {
-            throw BadRequest("'" + name + "' must be a list of pairs of strings");
-        }
-        pairs.emplace_back(pair[0].get<std::string>(), pair[1].get<std::string>());
-    }
-    return pairs;
-}
 
 const Interpreter& interpreter_of(const Json& request) {
     const std::string name = text_of(request, "interpreter");
@@ -188,39 +136,14 @@ Json productions_of(const Document& document) {
     return list;
 }
 
-std::string decimal_text(const Quantity& quantity) {
-    return quantity.digits.empty() ? fmt::format("{}", quantity.value) : quantity.digits;
-}
-
 /// Adds the length of the word, the number of segments and the extent, if they are cheap to compute.
 void add_measures(const Document& document, const Monitor& monitor, Json& answer) {
-    constexpr double budget = 2e8;   // of a drawing
-    constexpr double at_once = 3e6;  // nodes visited at most for the facts
-    const Grammar& grammar = document.grammar();
-    Json cost = {{"symbols", ""}, {"segments", ""}, {"is_derivable", true}, {"most", ""}};
-    try {
-        const auto expected = estimate(grammar, true);
-        cost["is_derivable"] = !expected || expected->nodes <= budget;
-        if (expected && expected->nodes > budget) {
-            cost["most"] = fmt::format("{}", largest_affordable(grammar, true, budget));
-        }
-        const Measurement measured =
-            measure(grammar, at_once, [&](std::uint64_t symbols) { monitor.advance(symbols); });
-        cost["symbols"] = decimal_text(measured.symbols);
-        // Splines are drawn through moves, too.
-        const bool is_spline = read_print_style(document, {}).line == Line::spline;
-        cost["segments"] = decimal_text(is_spline ? measured.moves : measured.drawn);
-        if (measured.geometry && (is_spline || measured.geometry->ink)) {
-            Json extent = Json::array();
-            for (const Quantity& side : is_spline ? measured.geometry->box : *measured.geometry->ink) {
-                extent.push_back(decimal_text(side));
-            }
-            answer["extent"] = std::move(extent);
-        }
-    } catch (const BudgetError&) {  // the facts stay unknown
-    } catch (const WordError&) {    // drawing reports the error
-    }
-    answer["cost"] = std::move(cost);
+    const QuickMeasures measures = measure_quickly(document, monitor);
+    answer["cost"] = {{"symbols", measures.symbols},
+                      {"segments", measures.segments},
+                      {"is_derivable", measures.is_derivable},
+                      {"most", measures.most}};
+    if (measures.extent) answer["extent"] = *measures.extent;
 }
 
 /// Warnings, and errors of the word.

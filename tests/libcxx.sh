@@ -14,6 +14,6 @@ for folder in harfbuzz fribidi; do options+=(-isystem "/usr/include/$folder"); d
 for name in VERSION MODULES_FROM_DATA {DATA,PATTERNS,MODULES,STUDIO}_{RELATIVE,INSTALLED}; do
     options+=("-DSIKKU_$name=\"\"")
 done
-mapfile -t sources < <(find engine art music cli -name '*.cpp' | sort)
+mapfile -t sources < <(find engine art music cli studio/editor -name '*.cpp' | sort)
 printf '%s\0' "${sources[@]}" | xargs -0 -n 1 -P "$(nproc)" clang++ "${options[@]}"
 echo "libc++ 13: ${#sources[@]} sources"

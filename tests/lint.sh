@@ -32,7 +32,7 @@ else
         grep '\.cpp$' || true)
 fi
 # All headers and settings.
-seen=$(cat .clang-tidy $(find engine art music cli python studio/*.h -name '*.h' | sort) | sha256sum | cut -c1-24)
+seen=$(cat .clang-tidy $(find engine art music cli python studio/*.h studio/editor -name '*.h' | sort) | sha256sum | cut -c1-24)
 export build seen
 # The sources of a batch, or the source itself.
 sources_of() {

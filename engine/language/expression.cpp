@@ -3,6 +3,7 @@
 #include "engine/base/characters.h"
 #include "engine/base/decimal.h"
 #include "engine/base/text.h"
+#include "engine/language/function_names.h"
 
 #include <fmt/format.h>
 
@@ -45,6 +46,16 @@ constexpr Function functions[] = {{"sin", 1, [](double a, double) { return std::
                                   {"max", 2, [](double a, double b) { return std::fmax(a, b); }},
                                   {"mod", 2, [](double a, double b) { return std::fmod(a, b); }},
                                   {"random", 2, nullptr}};
+
+}  // namespace
+
+std::vector<std::string_view> function_names() {
+    std::vector<std::string_view> names;
+    for (const Function& function : functions) names.push_back(function.name);
+    return names;
+}
+
+namespace {
 
 /// A number with twice the digits of a double: the sum of both members.
 struct TwoDoubles {
