@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <chrono>
 #include <cmath>
@@ -256,6 +257,18 @@ void write_file(const std::filesystem::path& path, const std::string& text) {
     OutputFile file(path);
     file.write(text);
     file.commit();
+}
+
+void write_all(int descriptor, std::string_view text) {
+    while (!text.empty()) {
+        const ssize_t written = ::write(descriptor, text.data(), text.size());
+        if (written < 0) {
+            if (errno == EINTR && !interrupted()) continue;
+            if (interrupted()) throw Interrupted();
+            throw std::runtime_error(unwritten(std::generic_category().message(errno)));
+        }
+        text.remove_prefix(static_cast<std::size_t>(written));
+    }
 }
 
 std::string extension_of(const std::string& file) {

@@ -145,6 +145,9 @@ private:
 /// Writes a text to a file, which appears whole or not at all, or to standard output if the path is empty.
 void write_file(const std::filesystem::path& path, const std::string& text);
 
+/// Writes all bytes to a descriptor. @throws std::runtime_error that names the cause; Interrupted
+void write_all(int descriptor, std::string_view text);
+
 /// The extension of a file name in lower case, with its dot.
 std::string extension_of(const std::string& file);
 
@@ -169,6 +172,7 @@ void add_ports(CLI::App& app, bool& quiet);
 void add_show(CLI::App& app, bool& quiet);
 void add_check(CLI::App& app, bool& quiet);
 void add_studio(CLI::App& app, bool& quiet);
+void add_lsp(CLI::App& app, bool& quiet);
 void add_completion(CLI::App& app, bool& quiet);
 void add_manual(CLI::App& app, bool& quiet);
 

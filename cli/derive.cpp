@@ -10,27 +10,12 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <string_view>
 
 namespace sikku {
 namespace {
-
-/// @throws std::runtime_error that names the cause; Interrupted
-void write_all(int descriptor, std::string_view text) {
-    while (!text.empty()) {
-        const ssize_t written = ::write(descriptor, text.data(), text.size());
-        if (written < 0) {
-            if (errno == EINTR && !interrupted()) continue;
-            if (interrupted()) throw Interrupted();
-            throw std::runtime_error(unwritten(std::generic_category().message(errno)));
-        }
-        text.remove_prefix(static_cast<std::size_t>(written));
-    }
-}
 
 void derive_as_text(const Document& document, Progress& progress) {
     const MapLimits limits{std::numeric_limits<double>::infinity(), static_cast<double>(available_memory()) / 2};

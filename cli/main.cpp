@@ -42,12 +42,25 @@ struct CommandRow {
 
 /// The commands, in the order of the help.
 constexpr CommandRow commands[] = {
-    {"draw", sikku::add_draw},         {"sheet", sikku::add_sheet},       {"workbook", sikku::add_workbook},
-    {"kolam", sikku::add_kolam},       {"tiling", sikku::add_tiling},     {"play", sikku::add_play},
-    {"gallery", sikku::add_gallery},   {"derive", sikku::add_derive},     {"measure", sikku::add_measure},
-    {"patterns", sikku::add_patterns}, {"plotters", sikku::add_plotters}, {"ports", sikku::add_ports},
-    {"import", sikku::add_import},     {"scales", sikku::add_scales},     {"show", sikku::add_show},
-    {"check", sikku::add_check},       {"studio", sikku::add_studio},     {"completion", sikku::add_completion},
+    {"draw", sikku::add_draw},
+    {"sheet", sikku::add_sheet},
+    {"workbook", sikku::add_workbook},
+    {"kolam", sikku::add_kolam},
+    {"tiling", sikku::add_tiling},
+    {"play", sikku::add_play},
+    {"gallery", sikku::add_gallery},
+    {"derive", sikku::add_derive},
+    {"measure", sikku::add_measure},
+    {"patterns", sikku::add_patterns},
+    {"plotters", sikku::add_plotters},
+    {"ports", sikku::add_ports},
+    {"import", sikku::add_import},
+    {"scales", sikku::add_scales},
+    {"show", sikku::add_show},
+    {"check", sikku::add_check},
+    {"studio", sikku::add_studio},
+    {"lsp", sikku::add_lsp},
+    {"completion", sikku::add_completion},
     {"manual", sikku::add_manual},
 };
 
