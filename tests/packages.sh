@@ -14,7 +14,7 @@ studio_packages=(emscripten libfast-float-dev xz-utils)
 browser_packages=(chromium firefox-esr)
 # For ./check --full, together with those of the studio.
 full_packages=(clang libclang-rt-14-dev libc++-13-dev inkscape lilypond musescore3 abcmidi csound fluidsynth
-    timgm6mb-soundfont flac slurm-wlm munge librecad)
+    timgm6mb-soundfont flac slurm-wlm munge librecad neovim)
 # For building packages and testing their contents.
 packaging_packages=(debhelper dh-python fakeroot patchelf pybind11-dev python3-dev python3-numpy python3-setuptools
     python3-wheel python3-pip unzip)
