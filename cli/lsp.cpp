@@ -21,7 +21,7 @@ bool input_waits() {
     return ::poll(&input, 1, 0) > 0;
 }
 
-/// Reads what is there, at least one byte; empty at the end. @throws Interrupted, std::system_error
+/// Reads the available bytes, at least one; empty at the end of the input. @throws Interrupted, std::system_error
 std::string_view read_some(std::array<char, 1U << 16U>& buffer) {
     for (;;) {
         const ssize_t count = ::read(STDIN_FILENO, buffer.data(), buffer.size());
@@ -38,7 +38,8 @@ public:
     int serve() {
         ignore_closed_pipes();
         while (!server_.has_ended()) {
-            // What was sent is read before anything is answered: it may cancel a request, or replace a text.
+            // All messages that have arrived are read before one is answered: they can cancel a request, or replace a
+            // text.
             if (has_news() || (has_input_ && !server_.has_work())) {
                 read();
             } else if (server_.has_work()) {
@@ -53,7 +54,7 @@ public:
     }
 
 private:
-    /// Bytes of messages that are read before they are answered.
+    /// The largest number of bytes that are read before messages are answered.
     static constexpr std::size_t most_ahead = std::size_t{1} << 20U;
 
     /// True if there is input that may be read now.
@@ -70,7 +71,7 @@ private:
         reader_.add(bytes);
         while (const auto message = reader_.next()) {
             if (message->is_skipped) {
-                server_.refuse(fmt::format("a message of {} is too large; messages have at most {}",
+                server_.refuse(fmt::format("a message of {} is too large; the limit is {}",
                                            bytes_text(static_cast<double>(message->size)),
                                            bytes_text(static_cast<double>(MessageReader::most_bytes))));
             } else {
@@ -95,16 +96,18 @@ private:
 }  // namespace
 
 void add_lsp(CLI::App& app, bool& /*quiet*/) {
-    auto* command = app.add_subcommand("lsp", "Serve editors: errors while you type, help, completion, renaming");
+    auto* command =
+        app.add_subcommand("lsp", "Run the language server: errors while you type, help, completion, renaming");
     auto grammar = std::make_shared<std::string>();
-    command->add_option("--grammar", *grammar, "print a grammar for highlighting instead: textmate (JSON) or vim")
+    command
+        ->add_option("--grammar", *grammar, "print a grammar for syntax highlighting instead: textmate (JSON) or vim")
         ->type_name("KIND")
         ->check(one_of({"textmate", "vim"}));
     command->footer(
-        "Editors start this command; it speaks the language server protocol on standard input and output. It reports "
-        "errors, explains keys and symbols, completes, finds definitions, renames, formats, shows colours, and shows "
-        "the length and the extent of what a pattern draws. Documents have at most 4 MB. Exit status: 0 if the "
-        "editor shut the server down, otherwise 1.\n\n"
+        "Editors start this command and exchange messages with it on standard input and output, in the language "
+        "server protocol. The server reports errors, explains keys and symbols, completes and renames names, finds "
+        "definitions, formats patterns, and shows colours and the length and extent of the drawing. A document can "
+        "have at most 4 MB. Exit status: 0 if the editor requested the shutdown, otherwise 1.\n\n"
         "Examples:\n"
         "  sikku lsp --grammar vim > ~/.config/nvim/syntax/sikku.vim\n"
         "  sikku lsp --grammar textmate > sikku.tmLanguage.json");

@@ -158,7 +158,7 @@ struct WholePart {
     const Player* player = nullptr;
     Block block;
     std::int64_t start = 0;   ///< ticks of the score, or of its section
-    std::int64_t later = 0;   ///< of them, those that the upbeat of the score is longer than its own
+    std::int64_t later = 0;   ///< of them, those by which the upbeat of the score exceeds that of the part
     std::int64_t period = 0;  ///< ticks from one repetition to the next
     std::int64_t repeats = 1;
     std::int64_t until = INT64_MAX;  ///< tick at which repetitions are cut off
@@ -214,7 +214,7 @@ public:
 private:
     void read() {
         std::int64_t leading = 0;            // length of the last part other than a bass, in its own ticks
-        std::int64_t arranged = 0;           // the same, in its form and without chords after the end
+        std::int64_t arranged = 0;           // the same in its form, without chords after the end
         std::vector<std::int64_t> sections;  // ends of the sections in its form
         for (const Player& player : ensemble_.players) {
             const Layout& layout = player.melody.layout;

@@ -91,7 +91,7 @@ PlayOptions piece_of(const PlaySettings& options, const Ensemble& ensemble, cons
 /// @param first_section  letter of the section with which a form begins
 std::int64_t upbeat_of(const std::vector<Player>& players, const Meter& meter, std::optional<char> first_section);
 
-/// Ticks that the upbeat of the score is longer than that of a part; negative if it is shorter.
+/// Ticks by which the upbeat of the score exceeds that of a part; negative if it is shorter.
 std::int64_t upbeat_rest(const Player& player, const Ensemble& ensemble);
 
 /// Tick of the score, or of its section, at which a part begins. @param meter  of the section

@@ -47,7 +47,7 @@ std::vector<TempoPoint> cut_tempo(std::span<const TempoPoint> tempo, std::int64_
 /// with the values in effect. Curves are ignored, see cut_tempo(). Memory: O(voices).
 class ExcerptSink : public NoteSink {
 public:
-    /// @param before  receives the notes that begin before the excerpt; may be null
+    /// @param before  receives the notes that begin before the excerpt; can be null
     ExcerptSink(NoteSink& sink, std::int64_t from, std::int64_t to, LastStrokes* before = nullptr)
         : sink_(sink), from_(from), to_(to), before_(before) {}
     void controls(std::span<const ControlPoint> points) override;

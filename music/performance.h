@@ -107,7 +107,7 @@ struct Human {
 /// controllers, tempo and held notes that it has within the whole (see context_of()), and the ending of the whole
 /// only as far as it contains it, unless Ensemble::ends_excerpts. The seconds of the report include all changes of
 /// tempo.
-/// @param before  receives the notes before an excerpt whose unisons are merged; may be null
+/// @param before  receives the notes before an excerpt whose unisons are merged; can be null
 /// @throws as play_all()
 EnsembleReport perform(const Ensemble& ensemble, const PlayOptions& playing, ExpressionSink::Use use,
                        const Human& human, NoteSink& sink, LastStrokes* before = nullptr);

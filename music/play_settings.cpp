@@ -98,9 +98,8 @@ std::vector<Option<S>> make_table() {
           .kind = flag},
          [](S& s, Text t) { s.has_graces = t == "true"; }},
         {{.name = "repeats",
-          .help =
-              "print passages of four bars or more that follow themselves once, between repeat signs, with first and "
-              "second endings where they differ at the end",
+          .help = "print repeat signs for passages of four bars or more that are played twice or more in a row, with "
+                  "first and second endings where the ends differ",
           .kind = flag},
          [](S& s, Text t) { s.has_repeats = t == "true"; }},
         {{.name = "parts",

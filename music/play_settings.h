@@ -23,7 +23,7 @@ struct PlaySettings {
     Syllables syllables = Syllables::none;
     bool has_chord_signs = false;  ///< chords are named in print
     bool has_graces = false;       ///< gamakas are printed as grace notes
-    bool has_repeats = false;      ///< passages that follow themselves are printed once
+    bool has_repeats = false;      ///< passages that are played several times in a row are printed once
     bool has_parts = false;        ///< a part for each player is printed, too
     bool is_transposed = true;     ///< in print, transposing instruments are written as their players read them
     std::uint64_t seed = 0;        ///< random seed of humanise

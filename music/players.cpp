@@ -240,7 +240,7 @@ bool has_excerpt(const Player& player) {
 void cut_excerpt(const Player& player, PlayOptions& options) {
     const Layout& layout = player.melody.layout;
     const std::int64_t bar = player.melody.meter.bar();
-    // The bar of an upbeat has no number, and belongs to the first.
+    // The bar of an upbeat has no number, and belongs to the first bar.
     const std::int64_t before = layout.first_bar - 1 + (layout.upbeat > 0 ? 1 : 0);
     const std::int64_t first = layout.first_bar > 1 ? before * bar : 0;
     options.from += first;

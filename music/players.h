@@ -76,7 +76,7 @@ std::string reason_of_silence(const Player& player, std::uint64_t lost);
 /// Number of bars begun within a number of ticks.
 Integer bars_of(const Integer& ticks, const Meter& meter);
 
-/// Number of the bar in which a melody ends. @param ticks  of the melody, with the rest before an upbeat
+/// Number of the bar in which a melody ends. @param ticks  of the melody, including the rest before an upbeat
 Integer last_bar(const Integer& ticks, const Melody& melody);
 
 /// Duration in words. @param tempo  quarters a minute

@@ -43,7 +43,7 @@ struct ScoreWriter {
     void (*print)(const Notation& notation, const Rendition& rendition, Output& output) = nullptr;
     void (*write)(Rendition& rendition, Output& output) = nullptr;
     bool has_cues = false;  ///< parts of players have cues
-    /// How often a passage between repeat signs is played at most; 1: the format has no repeat signs.
+    /// The largest number of times that a passage between repeat signs is played; 1: the format has no repeat signs.
     std::size_t most_repeats = 1;
 
     /// True for MIDI files and for sound, which is rendered from them.

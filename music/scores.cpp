@@ -241,7 +241,7 @@ private:
         if (!ensemble_.form.empty()) first_section = static_cast<char>('A' + ensemble_.form.front().letter);
         ensemble_.upbeat = upbeat_of(ensemble_.players, ensemble_.meter, first_section);
         if (ensemble_.upbeat >= ensemble_.meter.bar()) {
-            throw ScoreError("an upbeat is not shorter than a bar of the score");
+            throw ScoreError("the upbeat of a part must be shorter than a bar of the score");
         }
         ensemble_.piece = ensemble_.tempo_and_meter(0);
         if (first_section) {
@@ -306,7 +306,7 @@ void ScoreWork::check_size(const PlayOptions& playing) const {
     }
 }
 
-/// Reports repeats, and names of chords and syllables that are missing.
+/// Reports repeats, and missing chord symbols and syllables.
 void ScoreWork::report_marks(const Notation& notation, Made& made) const {
     const bool has_chords = std::any_of(notation.parts.begin(), notation.parts.end(),
                                         [](const NotatedPart& part) { return !part.chords.empty(); });
@@ -318,7 +318,7 @@ void ScoreWork::report_marks(const Notation& notation, Made& made) const {
             notation.nameless_chords == 1 ? "1 chord has" : counted(notation.nameless_chords, "chord") + " have"));
     }
     if (settings_.has_repeats && notation.repeats.empty()) {
-        made.warn_of_unused("repeats", "no passage of four bars or more follows itself");
+        made.warn_of_unused("repeats", "no passage of four bars or more is played twice in a row");
     } else if (settings_.has_repeats) {
         made.fact(fmt::format("{} printed as {}: {}", counted(notation.played_bars(), "bar"), notation.bars,
                               counted(notation.repeats.size(), "repeat")));

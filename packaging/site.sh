@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Makes the site: a folder of static files for any server, with the studio, the manual and a page for each bundled
-# pattern. It makes no request to other servers. The same sources, program and studio give the same bytes.
+# pattern. Its pages send no requests to other servers. The same sources, program and studio give the same bytes.
 # usage: packaging/site.sh OUTPUT [PROGRAM] [STUDIO_FOLDER]
 # PROGRAM draws and plays the patterns (build/release/bin/sikku); STUDIO_FOLDER contains sikku-studio.html (build/studio).
 # Needs python3 and cmark-gfm. OUTPUT is replaced if it is a site that this script made.

@@ -193,12 +193,13 @@ constexpr KeyInfo language[] = {
     {"speed", music, "3:2, 2, …", "1", "Tempo of the part, compared with that of the score"},
     {"start", music, "a number of bars", "0", "Bars of the score before the part begins"},
     {"upbeat", music, "a note value such as 1/4, none", "none",
-     "Duration of the melody before its first bar line; each section of a form begins with it"},
+     "Duration of the upbeat, the part of the melody before the first bar line; each section of a form begins with "
+     "one"},
     {"excerpt", music, "bars such as 1-8 or 9-, all", "all", "Bars of the melody that are played"},
     {"form", music, "AABA, A1 A2 B A2, A A+1 Ai Ar A*2 Ak Ac, AB order 2; curve", "curve",
      "Order of the sub-curves; 1 ends on the fifth, 2 on the tonic; +1 moves a section by degrees, i inverts it, r "
      "reverses it, *2 and /2 make its notes longer or shorter, k plays it three times, so that it ends at a bar "
-     "line; c is a coda: its last two bars, and the last of them again, twice as long"},
+     "line; c keeps its last two bars as a coda and repeats the last one twice as long"},
     {"thinning", music, "a share of the phrase, 0 to 1; none", "none",
      "Share of each phrase or section, at its end, that keeps only notes on beats, and in its second half only those "
      "on strong beats"},

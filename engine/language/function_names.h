@@ -1,4 +1,4 @@
-// engine/language/function_names.h: the functions of expressions, for help and highlighting.
+// engine/language/function_names.h: the functions of expressions, for help and syntax highlighting.
 #pragma once
 
 #include <string_view>

@@ -138,7 +138,7 @@ void turn_glides(std::vector<FormNote>& notes) {
         notes.end());
 }
 
-/// Makes phrases begin with their last notes.
+/// Marks the last note of each phrase as its beginning, for reversed notes.
 void turn_phrases(std::vector<FormNote>& notes) {
     for (const auto& [voice, line] : voices_of(notes)) {
         bool is_last =
@@ -236,7 +236,7 @@ std::int64_t end_of_melody(const Block& block, const Melody& melody) {
     return end;
 }
 
-/// The tick at which the last sub-curve ends. Chords fill the last bar, in which more can begin with its upbeat.
+/// The tick at which the last sub-curve ends. Chords fill the last bar, in which the next upbeat can begin.
 std::int64_t end_of_sections(const Block& block, const Melody& melody) {
     return melody.layout.opening() > 0 ? block.melody_end : block.length;
 }
@@ -385,7 +385,7 @@ void make_coda(Block& piece, const Melody& melody) {
     piece = cut(piece, 0, end_of_melody(piece, melody));
 }
 
-/// Moves a section so that the bar line after its upbeat, which is longer or shorter now, is a bar line of the score.
+/// Moves a section so that its upbeat, which is now longer or shorter, ends at a bar line of the score.
 void put_on_bar_line(Block& piece, const Melody& melody, Ratio augmentation) {
     const std::int64_t bar = melody.meter.bar();
     const std::int64_t upbeat = melody.layout.opening();

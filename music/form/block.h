@@ -44,7 +44,7 @@ void reverse(Block& block);
 
 /// Puts sub-curves in the order of the form: A is the first of the curve, B the second. In retrograde, each
 /// sub-curve and their order are reversed; cadences and breaths stay at the ends of the sections. Sections begin at
-/// bar lines, or with the upbeat before them, after a rest if need be.
+/// bar lines, or with the upbeat before them, after a rest if necessary.
 /// @param grammar  grammar of the block, to suggest a derivation length if sub-curves are missing
 /// @param ends  ticks at which sections end, taken from another part; empty: those of the curve
 /// @throws ScoreError if the curve has too few sub-curves

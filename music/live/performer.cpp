@@ -531,7 +531,7 @@ private:
     std::unique_ptr<Version> next_;     // replaces the current one at change_
     std::unique_ptr<Version> retired_;  // its thread ends after the notes of the change are sent
     std::int64_t change_ = 0;
-    std::int64_t next_bar_ = 0;  // its bar there, as it is printed
+    std::int64_t next_bar_ = 0;  // number of the bar there, as printed
     std::int64_t patience_ = 1;
     Clock& clock_;
     Port& port_;

@@ -82,7 +82,7 @@ public:
             breaths_ += (phrases * breath).convert_to<std::int64_t>();
             return;
         }
-        // The next phrase begins with its rhythm, perhaps at a bar line or with its upbeat.
+        // The next phrase begins with its rhythm, and can begin at a bar line or with its upbeat.
         const std::int64_t bar = melody_.breathes_to_bar ? melody_.meter.bar() : 1;
         std::int64_t end = end_ticks(steps) + breath;
         // Without a bar line, rests of the rhythm before its next note count.
@@ -141,7 +141,7 @@ private:
     const RhythmTemplate* rhythm_;  // of the phrase
     std::size_t rhythm_number_ = 0;
     bool has_rhythm_;
-    std::int64_t breaths_;  // ticks of rests so far, with that before an upbeat
+    std::int64_t breaths_;  // ticks of rests so far, including that before an upbeat
     Number begin_ = 0;      // step from which times count: the start of the phrase if it begins at a bar line
     int phrases_ = 0;
 };

@@ -70,7 +70,7 @@ public:
         if (options_.phrase_ends) options_.phrase_ends->push_back(tick - options_.from);
     }
 
-    /// Records that a part of the word was skipped: the next note may lie within a phrase.
+    /// Records that a part of the word was skipped, so that the next note can lie within a phrase.
     void skip() { sounding_phrase_ = phrase_; }
 
     /// True if symbols read from `tick` on, the end of the piece or later, cannot affect the piece.
@@ -180,7 +180,7 @@ private:
     std::optional<Shaper> shaper_;
     std::optional<Accompaniment> accompaniment_;
     std::uint64_t phrase_ = 1;               // phrases that have begun
-    std::uint64_t sounding_phrase_ = 0;      // that of the last note; 0: none
+    std::uint64_t sounding_phrase_ = 0;      // phrase of the last note; 0: none
     std::int64_t accompanied_ = 0;           // tick of the score up to which chords have been added
     std::vector<Line> shaped_;               // line of each voice
     std::vector<std::int64_t> busy_until_;   // by voice, from the notes already placed

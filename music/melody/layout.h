@@ -33,7 +33,7 @@ struct FormSection {
     bool is_retrograde = false;
     Ratio augmentation;
     bool is_korvai = false;  ///< played three times, ending at a bar line
-    bool is_coda = false;    ///< only its last two bars, and the last of them again with notes twice as long
+    bool is_coda = false;    ///< only its last two bars; the last one is repeated with notes twice as long
     bool has_other_degrees() const { return is_inverted || degrees != 0; }
     bool is_changed() const {
         return has_other_degrees() || is_retrograde || !augmentation.is_one() || is_korvai || is_coda;
@@ -69,7 +69,7 @@ struct Layout {
     std::vector<Follower> canon;
     bool is_strict = false;  ///< notes yield to earlier parts: see counterpoint.h
 
-    /// Ticks before its first bar line; an excerpt that begins later has none.
+    /// Ticks before its first bar line; 0 for an excerpt that begins later.
     std::int64_t opening() const { return first_bar > 1 ? 0 : upbeat; }
     /// True if all notes must be known before the first one is played.
     bool needs_whole() const {

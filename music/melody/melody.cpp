@@ -486,7 +486,7 @@ private:
             return fail(*key, "expected a note value shorter than a bar, in 64ths, such as 1/8, 1/4 or 3/8, or none");
         }
         // MIDI writes the upbeat as a bar.
-        if (ticks / std::gcd(ticks, whole_note) > 255) return fail(*key, "the numerator is above 255");
+        if (ticks / std::gcd(ticks, whole_note) > 255) return fail(*key, "the numerator must be at most 255");
         if (!melody_.layout.tempo.is_one()) return fail(*key, "'upbeat:' cannot be combined with 'speed:'");
         if (melody_.layout.is_retrograde) return fail(*key, "'upbeat:' cannot be combined with 'retrograde:'");
         melody_.layout.upbeat = ticks;

@@ -324,7 +324,7 @@ private:
             if (is_last) put("{}", line_of_octaves(octaves, ')'));
             const std::string line = bar_line(end, is_last, ends_line);
             const std::string beginning = is_last ? "" : bar_beginning(end);
-            // A repeat that follows another one: `:||:`.
+            // A repeat that begins where another one ends: `:||:`.
             const bool are_joined = !line.empty() && beginning.starts_with('|');
             put("{}{}{}", line.empty() ? "" : " ", line, ends_line ? "\n" : are_joined ? "" : " ");
             if (ends_line) {
@@ -335,7 +335,7 @@ private:
         }
     }
 
-    /// The line at the end of a bar: `|`, `:|`, `||` or `|]`; empty if the sign after it is enough.
+    /// The bar line at the end of a bar: `|`, `:|`, `||` or `|]`; empty if the next sign contains it.
     std::string bar_line(std::int64_t end, bool is_last, bool ends_line) const {
         const RepeatSigns signs = signs_at(notation_.repeats, end);
         if (signs.ended) return ":|";
@@ -346,7 +346,7 @@ private:
         return signs.closed || std::binary_search(doubled.begin(), doubled.end(), end) ? "||" : "|";
     }
 
-    /// What begins with a bar: `|:` or `[1`.
+    /// The sign at the beginning of a bar: `|:`, `[1` or `[2`.
     std::string bar_beginning(std::int64_t begin) const {
         const RepeatSigns signs = signs_at(notation_.repeats, begin);
         if (signs.first_ending) return "[1 ";

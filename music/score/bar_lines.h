@@ -29,7 +29,7 @@ public:
     std::int64_t written(std::int64_t tick) const { return end(tick) - std::max<std::int64_t>(0, begin(tick)); }
     /// The number of the bar in which a tick lies.
     std::int64_t number(std::int64_t tick) const;
-    /// The number by which readers know this bar: from 1, or from 0 with an upbeat.
+    /// The printed number of a bar: from 1, or from 0 with an upbeat.
     std::int64_t printed_number(std::int64_t tick) const { return number(tick) + (upbeat() > 0 ? 0 : 1); }
     /// Ticks before the first bar line; 0 without an upbeat.
     std::int64_t upbeat() const { return stretches_.front().onset < 0 ? end(0) : 0; }
@@ -41,11 +41,11 @@ public:
         const Stretch& stretch = at(tick);
         return (tick - stretch.onset) % stretch.bar;
     }
-    /// The first bar line from a tick on; the beginning of the score is one.
+    /// The first bar line at or after a tick; the beginning of the score counts as one.
     std::int64_t next(std::int64_t tick) const { return tick == 0 || place(tick) == 0 ? tick : end(tick); }
     /// The tick at which a bar begins in the score.
     std::int64_t onset(std::int64_t number) const;
-    /// The same for a bar with a printed number; that of the first bar for earlier ones.
+    /// The same for a bar with a printed number; for earlier bars, the tick of the first bar.
     std::int64_t printed_onset(std::int64_t number) const {
         return onset(std::max<std::int64_t>(0, number - (upbeat() > 0 ? 0 : 1)));
     }
@@ -58,8 +58,8 @@ public:
     std::int64_t count(std::int64_t tick) const { return number(next(tick)); }
     /// The same bar lines, with ticks and bars counted from the one at `tick`.
     BarLines from(std::int64_t tick) const;
-    /// The bar lines that are left if the bars from one bar line to another are cut out. All have the same meter,
-    /// also the bar before them.
+    /// The bar lines without the bars from one bar line to another, which must have the meter of the bar before
+    /// them.
     BarLines without(std::int64_t first, std::int64_t end) const;
 
 private:

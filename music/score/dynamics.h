@@ -22,8 +22,8 @@ int dynamic_level(double velocity);
 /// within a level, and hairpins where it rises or falls steadily from one level to another. Levels are 16 steps of
 /// velocity apart, as in General MIDI; mf is 80. A bar has to leave the current level by 3 steps to change it.
 /// Hairpins have at least two notes, and end at a rest before the new level.
-/// Hairpins do not cross borders of repeats. The beginning of a repeat states its level if it is not that of its end,
-/// a second ending if it is not that before the first one.
+/// Hairpins do not cross borders of repeats. The beginning of a repeat states its level if its end has another level,
+/// a second ending if the level before the first ending differs.
 /// @param fresh_from  tick from which the print begins: nothing before it has been read
 std::vector<DynamicMark> dynamics_of(std::span<const Note> notes, const BarLines& bars, std::int64_t fresh_from = 0,
                                      std::span<const PrintedRepeat> repeats = {});

@@ -106,7 +106,7 @@ public:
         for (std::size_t i = 0; i < notation_.parts.size(); ++i) write_part(i);
         put("  >>\n{}", has_repeats ? "\n\\score {\n  \\sikkuMusic\n" : "");
         write_layout();
-        // Repeats are printed once, and heard as often as they are played.
+        // A repeated passage is printed once and unfolded for MIDI.
         if (has_repeats) put("}}\n\n\\score {{\n  \\unfoldRepeats \\sikkuMusic\n");
         // Cues and names of chords are read, not heard.
         put("  \\midi {{{}{} }}\n}}\n", has_cues() ? " \\context { \\CueVoice \\remove \"Note_performer\" }" : "",
@@ -428,7 +428,7 @@ private:
         if (is_single) write_syllables(staff.voices.front());
     }
 
-    /// What ends or begins at a bar line: repeats and their endings. @param has_count  states how often a passage is
+    /// The repeats and endings that end or begin at a bar line. @param has_count  prints how often a passage is
     /// played, if not twice
     std::string turn(std::int64_t onset, bool has_count) const {
         const RepeatSigns signs = signs_at(notation_.repeats, onset);

@@ -57,13 +57,13 @@ std::optional<KeySignature> first_key(const ScoreHead& head) {
     return part == head.parts.end() ? std::nullopt : part->key;
 }
 
-/// A section without a key has no signs.
+/// The bytes of a key signature; a section without a key has no accidentals.
 std::string key_bytes(const std::optional<KeySignature>& key) {
     const KeySignature signature = key.value_or(KeySignature{});
     return {static_cast<char>(signature.fifths), static_cast<char>(signature.minor)};
 }
 
-/// The meter of a bar of some ticks, a multiple of 30, in a meter.
+/// The meter of a short bar within a meter. @param ticks  length of the bar, a multiple of 30
 Meter short_meter(std::int64_t ticks, const Meter& meter) {
     const std::int64_t whole_note = 4 * ticks_per_quarter;
     Meter result{0, meter.unit, {}};

@@ -246,7 +246,7 @@ private:
         put("</part>\n");
     }
 
-    /// Writes the repeat and the ending that begin with a bar.
+    /// Writes the repeat or the ending that begins with a bar.
     void write_left_signs(std::int64_t begin) {
         const RepeatSigns signs = signs_at(notation_.repeats, begin);
         if (signs.begun) {
@@ -264,7 +264,7 @@ private:
     }
 
     /// Writes the bar line at the end of a bar, with the repeat or the ending that it ends. @param style  of the
-    /// line, if it is not that of a repeat; empty: a plain one
+    /// line, unless a repeat determines it; empty: a plain line
     void write_right_signs(std::string_view style, bool has_count) {
         const RepeatSigns signs = signs_at(notation_.repeats, here_);
         if (!signs.ended && !signs.closed && style.empty()) return;
@@ -280,7 +280,7 @@ private:
         if (repeat && repeat->has_endings()) {
             put("<ending number=\"{}\" type=\"stop\"/>", passes_of_first_ending(*repeat, ","));
         }
-        // Its bracket is open unless the score ends.
+        // The bracket stays open unless the score ends.
         if (signs.closed) {
             put("<ending number=\"{}\" type=\"{}\"/>", signs.closed->times,
                 style == "light-heavy" ? "stop" : "discontinue");

@@ -30,7 +30,7 @@ constexpr std::size_t most_notes = 200'000;
 constexpr std::int64_t most_bars = 100'000;
 constexpr double unheard = 0.01;  // semitones
 
-/// An upbeat has rests of its length, once if all voices rest.
+/// Hides the rests of an upbeat in voices that are silent in it; if all voices are, the rests of the first one stay.
 void hide_rests_of_upbeat(Staff& staff, std::int64_t upbeat) {
     const auto sounds = [&](const NotatedVoice& voice) {
         return std::any_of(voice.symbols.begin(), voice.symbols.end(), [&](const NotatedSymbol& symbol) {
@@ -240,7 +240,7 @@ struct Slur {
 };
 
 /// Slurs over the notes of a phrase from one rest, or bar line of `jumps`, to the next: at least two, not all of one
-/// pitch, in at most four bars. Players who swing shape their phrases themselves.
+/// pitch, in at most four bars. With swing, players shape their phrases themselves.
 std::vector<Slur> slurs_of(const Part& part, const std::vector<Note>& notes, const BarLines& bars,
                            const std::vector<std::int64_t>& jumps) {
     constexpr std::int64_t most_bars_of_slur = 4;

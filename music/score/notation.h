@@ -96,7 +96,7 @@ struct StaffChange {
     Clef clef = Clef::treble;
     int octaves = 0;             ///< octaves by which notes are written lower: -1 8vb, 1 8va, 2 15ma, 3 22ma
     bool restates_clef = false;  ///< the clef is printed even if it is in force
-    bool restarts_line = false;  ///< a line of 8va ends, even if another one of the same octave begins
+    bool restarts_line = false;  ///< an 8va line ends, even if another one of the same octave begins
     bool operator==(const StaffChange&) const = default;
 };
 
@@ -158,7 +158,7 @@ struct Notation {
     std::vector<NotatedPart> parts;
     std::vector<SectionChange> changes;     ///< of tempo and meter, ascending, after the beginning
     std::vector<std::int64_t> double_bars;  ///< bar lines at which key, tempo or meter change: ticks, ascending
-    std::vector<PrintedRepeat> repeats;     ///< ascending; they have signs instead of double bars
+    std::vector<PrintedRepeat> repeats;     ///< ascending; their signs replace double bars
     bool is_held = false;                   ///< it ends with fermatas
     std::int64_t bars = 1;
     BarLines bar_lines;        ///< from the first printed bar on
@@ -216,9 +216,9 @@ class TooLongToPrint : public ScoreError {
 /// off every grid are rounded to 64ths, but never to length 0: a note that would vanish delays the next one.
 /// Staves: each voice has its own; see staves.h. Voices that never sound are left out. Parts of one instrument that
 /// take turns share staves; see turns.h. Drum strokes are divided between hands and feet; see strokes.h.
-/// Repeats: if the head asks for repeat signs, passages that follow themselves are written once; see repeats.h.
-/// Slurs, hairpins and lines of 8va do not cross their signs, and dynamics and chords are stated again where the one
-/// before a sign depends on the way there.
+/// Repeats: if the head requests repeat signs, passages that are played several times in a row are written once; see
+/// repeats.h. Slurs, hairpins and 8va lines do not cross the signs, and dynamics and chords are stated again after a
+/// sign that is reached from places where they differ.
 /// Pitches: written as Part::spelling says; half-way between two semitones with a quarter-tone sign. Other pitches
 /// have their deviation in cents.
 /// Memory: O(notes + bars).

@@ -13,8 +13,8 @@
 
 namespace sikku {
 
-/// The chords of the score and their onsets: in each bar those of the first part that has any. One that is struck
-/// late in a bar, with nothing of the chord before it, belongs to the whole bar.
+/// The chords of the score and their onsets: in each bar those of the first part that has chords. If the first chord
+/// of a bar is struck late and no earlier chord sounds before it, it applies to the whole bar.
 std::vector<std::pair<std::int64_t, ChordSign>> Notator::changes_of_chords() const {
     std::map<std::int64_t, std::size_t> part_of_bar;
     for (const auto& [place, chord] : chord_signs_) {

@@ -19,7 +19,7 @@
 namespace sikku {
 namespace {
 
-/// What repeats depend on besides the notes of the printed parts.
+/// Data on which repeats depend in addition to the notes of the printed parts.
 struct RepeatSources {
     const BarLines& bar_lines;
     std::int64_t first_bar = 0;  ///< bars that are printed
@@ -27,16 +27,16 @@ struct RepeatSources {
     std::span<const SectionChange> changes;
     std::optional<std::int64_t> slows_from;  ///< tick of a ritardando
     bool has_graces = false;                 ///< grace notes are printed
-    /// The other keys of the chord of a note of a part.
+    /// The other keys in the chord of a note of a part.
     std::function<std::vector<double>(std::size_t part, const Note& note)> chord_of;
 };
 
-/// The numbers that say what is printed of a bar.
+/// The numbers that describe what is printed in a bar.
 using BarContents = std::vector<std::uint64_t>;
 
-/// Compares the printed bars by everything that is printed of them, in all parts: the places and lengths of notes,
-/// their keys, chords, stress, dynamics, slides, grace notes and fermatas. Velocities have to be equal where dynamics
-/// are printed. Bars of a ritardando are equal to no other. Cost: O(notes log notes + bars log bars).
+/// Compares bars by everything that is printed in them, in all parts: the places and lengths of notes, their keys,
+/// chords, stress, dynamics, slides, grace notes and fermatas. Velocities have to be equal where dynamics are
+/// printed. A bar of a ritardando differs from all others. Cost: O(notes log notes + bars log bars).
 class BarComparison {
 public:
     BarComparison(std::span<const PrintedPart> parts, const RepeatSources& sources)
@@ -90,7 +90,7 @@ private:
         }
     }
 
-    /// Notes the bar lines that a note or its slide crosses.
+    /// Records the bar lines that a note or its slide crosses.
     void add_crossings(const Note& note, std::int64_t bar) {
         const BarLines& lines = sources_.bar_lines;
         const std::int64_t end = note.onset + note.duration;
@@ -131,7 +131,7 @@ private:
         for (const double key : others) add_real(key);
     }
 
-    /// Numbers of the different contents.
+    /// The number of each distinct content.
     std::vector<std::uint32_t> numbered() {
         std::map<BarContents, std::uint32_t> known;
         std::vector<std::uint32_t> numbers;
@@ -145,7 +145,7 @@ private:
     std::span<const PrintedPart> parts_;
     const RepeatSources& sources_;
     std::vector<BarContents> contents_;
-    std::vector<std::int64_t> crossings_;  // by bar line: notes that cross it less those that cross the one before
+    std::vector<std::int64_t> crossings_;  // by bar line: notes that cross it minus those that cross the previous one
 };
 
 /// The change in force before a tick.

@@ -145,7 +145,7 @@ NotatedVoice copied(const NotatedVoice& source, std::int64_t from, std::int64_t 
     return copy;
 }
 
-/// @param jumps  bar lines of repeats, which a cue does not cross: what is heard before them depends on the pass
+/// @param jumps  bar lines of repeats; a cue does not cross them, because the music before them depends on the pass
 void add_cue(NotatedPart& player, const Staff& own, const std::vector<Line>& lines, std::int64_t entry,
              const BarLines& bars, const std::vector<std::int64_t>& jumps) {
     const std::int64_t to = bars.onset(entry);
@@ -180,7 +180,7 @@ void add_cues(Notation& player, const Staff& own, const std::vector<Line>& lines
             ++rests;
             continue;
         }
-        // Before an entry behind a sign that leads back, a cue would also be read when the player does not enter.
+        // Before an entry after an end-repeat sign, the player would also read the cue in passes without the entry.
         const bool follows_repeat = signs_at(player.repeats, player.bar_lines.onset(bar)).ended;
         if (rests >= fewest_rests_before_cue && !follows_repeat) {
             add_cue(player.parts.front(), own, lines, bar, player.bar_lines, jumps);
@@ -227,7 +227,7 @@ void gather_rests(Notation& player) {
     }
 }
 
-/// Moves the names of chords over bars of rest to the bar where the player enters, unless a repeat or a second ending
+/// Moves chord symbols over bars of rest to the bar where the player enters, unless a repeat or a second ending
 /// begins before it.
 void move_silent_chords(Notation& player) {
     const std::vector<bool> silent = silent_bars(player.parts.front(), player);

@@ -13,18 +13,18 @@
 namespace sikku {
 namespace {
 
-/// Bars at the end of a passage that may differ the last time.
+/// The number of bars at the end of a passage that can differ the last time.
 std::size_t longest_ending(std::size_t count) {
     return count / 4;
 }
 
-/// Bars at the beginning of a passage that are the same each time.
+/// The number of bars at the beginning of a passage that are the same each time.
 std::size_t least_equal(std::size_t count) {
     return count - longest_ending(count);
 }
 
 /// Names of the stretches of 1, 2, 4, … bars: two stretches have the same name if their bars are equal (Karp, Miller
-/// and Rosenberg 1972). A length at which all stretches differ is the last.
+/// and Rosenberg 1972). The last length is the first at which all stretches differ.
 class StretchNames {
 public:
     explicit StretchNames(std::vector<std::uint32_t> contents) {
@@ -36,7 +36,7 @@ public:
     /// The names of stretches of 2^level bars, by their first bar.
     const std::vector<std::uint32_t>& at(std::size_t level) const { return names_[level]; }
 
-    /// Bars from a and b on, b after a, that are equal.
+    /// The number of equal bars from a and b on, b after a.
     std::size_t equal_after(std::size_t a, std::size_t b) const {
         std::size_t count = 0;
         for (std::size_t level = names_.size(); level-- > 0;) {
@@ -45,7 +45,7 @@ public:
         }
         return count;
     }
-    /// Bars before a and b, b after a, that are equal.
+    /// The number of equal bars before a and b, b after a.
     std::size_t equal_before(std::size_t a, std::size_t b) const {
         std::size_t count = 0;
         for (std::size_t level = names_.size(); level-- > 0;) {
@@ -156,7 +156,7 @@ public:
             candidates_.pop();
             const auto free = std::prev(free_.upper_bound(best.from));
             if (free->first != best.from || free->second != best.to) {
-                // Others were chosen there since; what they left may be shorter.
+                // Passages chosen since may have left a shorter stretch.
                 for (auto one = free_.lower_bound(best.from); one != free_.end() && one->first < best.to; ++one) {
                     add(best.run, one->first, one->second);
                 }
@@ -178,7 +178,7 @@ private:
         std::size_t from = 0;
         std::size_t to = 0;
         bool operator<(const Candidate& other) const {
-            // Of two that are otherwise equal, the earlier one is the greater.
+            // Of two otherwise equal passages, the earlier one is the greater.
             return std::tuple(passage.saved(), passage.count, sounds, other.passage.first) <
                    std::tuple(other.passage.saved(), other.passage.count, other.sounds, passage.first);
         }
@@ -210,7 +210,7 @@ private:
         return best;
     }
 
-    /// Bars that a passage from a bar on would save if no note crossed its borders.
+    /// The number of bars that a passage from a bar on would save if no note crossed its borders.
     std::size_t most_saved(const EqualRun& run, std::size_t first) const {
         const std::size_t again = (run.end - first) / run.count;
         const std::size_t rest = (run.end - first) % run.count;
@@ -225,7 +225,7 @@ private:
         const std::size_t rest = (run.end - first) % count;
         const std::size_t last = first + (again + 2) * count;
         if (again + 2 <= most_times_ && rest >= least_equal(count) && last <= to) {
-            // The last two passes may differ in whether a note is held into the first bar that differs.
+            // In the last two passes, a note can be held into the first bar that differs in one and not in the other.
             std::size_t ending = run.end;
             if (is_open_[ending] || is_open_[ending + count]) ending = last_border_[ending - 1];
             const std::size_t least = first + again * count + least_equal(count);

@@ -75,11 +75,12 @@ struct Bar {
 
 private:
     /// True if a number of beats has a middle that values off the beat do not hide. Two beats have none: a value from
-    /// the half of one to that of the other is a syncopation that readers recognise.
+    /// the middle of one to the middle of the other is a syncopation that readers recognise.
     static bool has_middle(std::int64_t beats) { return beats % 2 == 0 && beats > 2; }
 
-    /// True if a value fits into a group, or a bar, of beats. Off the beat it does not hide a middle; only one that
-    /// begins with half a beat reaches into the next: to the end of a pair, or up to its half if it is the last.
+    /// True if a value fits into a group, or a bar, of beats. Off the beat it does not hide a middle; only a value
+    /// that begins in the middle of a beat reaches into the next: to the end of a pair, or to its middle if it is the
+    /// last.
     bool fits_group(std::int64_t from, std::int64_t to, std::int64_t group, bool is_last) const {
         if (beat == 0) return fits_place(from, to);
         const std::int64_t place = from % beat;

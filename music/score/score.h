@@ -69,7 +69,7 @@ struct Note {
     std::uint8_t level = 0;      ///< order of the largest sub-curve that begins with it, if a curve follows levels
     bool is_sliding = false;     ///< its pitch slides to the next note of its voice
     bool is_remainder = false;   ///< of a note that began before an excerpt
-    bool begins_phrase = false;  ///< of a part that follows no other; false if its beginning is cut off
+    bool begins_phrase = false;  ///< only in parts that follow no other; false if its beginning is cut off
     Glide glide{};               ///< slide of `vertical: glissando`
     bool has_fermata = false;    ///< it is held at the end
     Emphasis emphasis{};
@@ -232,7 +232,7 @@ struct ScoreHead {
     Syllables syllables = Syllables::none;  ///< print: under the notes
     bool has_chord_signs = false;           ///< print: chords are named above the first staff
     bool has_graces = false;                ///< print: gamakas are grace notes
-    /// Print: how often a passage between repeat signs is played at most; 1: no repeat signs.
+    /// Print: the largest number of times that a passage between repeat signs is played; 1: no repeat signs.
     std::size_t most_repeats = 1;
     std::vector<Part> parts;
 

@@ -18,7 +18,7 @@ namespace sikku {
 /// Writes ABC 2.1: the recipe and the pattern as comments, then one tune with a voice for each voice of each staff.
 /// Lengths are in eighths. Clefs with an octave are replaced by those without. Accidentals are written so that rules
 /// by which they apply to one note or to its letter in the bar agree. Quarter tones are `^/` and `_/`.
-/// @param notation  its repeats are played twice: programs do not agree on signs for more
+/// @param notation  its passages are played at most twice: programs disagree on signs for more
 void write_abc(const Notation& notation, const ScoreHead& head, Output& out);
 
 /// Writes a numeric score for Csound (`.sco`): an `i` statement for each note, by onset, then by voice. Times are in

@@ -12,7 +12,7 @@
 
 namespace sikku {
 
-/// The part of each voice in whose keys unisons are merged; parts that share a channel have one number.
+/// For each voice, the part in which its unisons are merged; parts that share a channel have the same number.
 /// @param merges_all  false: only the notes of drums, which share one channel
 std::vector<std::size_t> unison_parts(const ScoreHead& head, bool merges_all);
 
@@ -50,7 +50,7 @@ public:
     void notes(std::span<const Note> notes) override;
     void finish(std::int64_t end) override;
 
-    /// To be filled before finish() if the notes are those of an excerpt.
+    /// Must be filled before finish() if the notes are those of an excerpt.
     LastStrokes& strokes_before() { return before_; }
 
 private:

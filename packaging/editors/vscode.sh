@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Packs the extension for VS Code: OUTPUT_FOLDER/sikku-VERSION.vsix. Needs npm, and downloads the versions that
-# packaging/editors/vscode/package-lock.json states.
+# Packs the extension for VS Code: OUTPUT_FOLDER/sikku-VERSION.vsix. Needs npm, which downloads the packages
+# of packaging/editors/vscode/package-lock.json.
 # usage: packaging/editors/vscode.sh OUTPUT_FOLDER
 set -euo pipefail
 [ $# -eq 1 ] || { echo "usage: packaging/editors/vscode.sh OUTPUT_FOLDER" >&2; exit 2; }

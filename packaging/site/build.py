@@ -34,10 +34,10 @@ PAGE_BYTES = 300_000
 SITE_BYTES = 60_000_000
 MANUAL_PICTURE_BYTES = 90_000
 
-# Documents of the manual beside those of docs/: the names of their pages, how the manual lists them.
+# Documents of the manual outside docs/: the names of their pages, and their entries in the manual.
 OTHER_DOCUMENTS = {
     "README.md": ("readme", "Overview", "What the program does; install; run; versions"),
-    "CHANGELOG.md": ("changelog", "Change log", "What changed for users, and which bytes of outputs"),
+    "CHANGELOG.md": ("changelog", "Change log", "What changed for users, and which outputs changed"),
     "CONTRIBUTING.md": ("contributing", "Contributing", "How to build and test; how to add a key, an option, a format"),
     "SECURITY.md": ("reporting-security", "Security", "How to report a vulnerability"),
 }
@@ -47,7 +47,7 @@ FRONT = (
     ("penrose-rhombs", "Penrose’s rhombs", ("--fill-page", "--step", "8mm")),
     ("lilac", "A lilac in the sun", ()),
 )
-# The melody of the front page, and what its links open in the studio.
+# The melody of the front page, and the patterns that its links open in the studio.
 HEARD = "hilbert-kalyani"
 BEGIN = (
     ("a kolam for the door", "kolam-7x7-3aamyxrw"),
@@ -75,7 +75,7 @@ class Site:
 
 
 def in_process(program: drawing.Program, folder: Path, pattern: reading.Pattern) -> drawing.Made:
-    # Each in a folder of its own, because names of scratch files are the same.
+    # Each in a separate folder, because the names of scratch files are the same.
     with tempfile.TemporaryDirectory(dir=folder) as own:
         made = drawing.make(program, pattern, Path(own))
         used = {made.picture, made.thumbnail, made.roll, *made.variants.values()}
@@ -101,7 +101,7 @@ def pattern_pages(site: Site, all_patterns: dict[str, list[reading.Pattern]], ma
 
 
 class ManualPictures:
-    """Pictures of documents, made smaller."""
+    """Writes the pictures of documents in a smaller size."""
 
     def __init__(self, site: Site):
         self.site = site
@@ -110,7 +110,7 @@ class ManualPictures:
     def __call__(self, address: str, source: str) -> tuple[str, int, int]:
         file = (ROOT / manual.resolved(address, source)).resolve()
         if not file.is_relative_to(ROOT) or file.suffix != ".png":
-            fail(f"{source}: the picture {address} is not a PNG of the sources")
+            fail(f"{source}: the picture {address} is not a PNG file of the sources")
         target = f"manual/pictures/{file.name}"
         if file.name not in self.sizes:
             data = png.reduced(file.read_bytes(), MANUAL_PICTURE_BYTES)
@@ -154,7 +154,7 @@ def manual_pages(site: Site, index: Index) -> None:
 
         read[name] = manual.read((ROOT / source).read_text(), link, partial(pictures, source=source))
 
-    # The order and the descriptions of the README.
+    # The order and the descriptions are those of the README.
     described = {}
     for name, about in manual.table_rows(readme, "Documentation"):
         match = re.fullmatch(r"\[(.*)\]\((.*)\)", name)
@@ -181,8 +181,8 @@ def manual_pages(site: Site, index: Index) -> None:
         for name in order
     )
     body = (
-        '<div class="head"><h1>Manual</h1><p class="lede">Begin with the tutorial; look up keys in the pattern language and '
-        f'options in the commands.</p></div><div><ul class="entries">{entries}</ul></div>'
+        '<div class="head"><h1>Manual</h1><p class="lede">Begin with the tutorial. Look up keys in the pattern language '
+        f'and options in the commands.</p></div><div><ul class="entries">{entries}</ul></div>'
     )
     site.write("manual/index.html", page("manual/index.html", "Manual – Sikku", body, about="The manual of Sikku."))
 
@@ -198,12 +198,12 @@ def example(site: Site, program: drawing.Program, name: str, text: str, options:
         svg.parent.mkdir(exist_ok=True)
         problem = drawing.draw_text(program, text, svg, "-n" if match[1] == "n" else "--seed", value)
         if problem:
-            fail(f"{name} is not drawn: {problem}")
+            fail(f"{name} cannot be drawn: {problem}")
         if svg.stat().st_size > 30_000:
             fail(f"{svg.name} has {svg.stat().st_size} bytes; choose a smaller n")
         caption = f"{match[1]} = {value}"
         figures += (
-            f'<figure><img src="assets/{svg.name}" width="640" height="640" alt="The picture of this text, {caption}" loading="lazy">'
+            f'<figure><img src="assets/{svg.name}" width="640" height="640" alt="The drawing of this pattern, {caption}" loading="lazy">'
             f"<figcaption>{caption}</figcaption></figure>"
         )
     link = "studio/index.html#" + studio_link(f"{name}.lsys", text)
@@ -214,7 +214,7 @@ def example(site: Site, program: drawing.Program, name: str, text: str, options:
 
 
 def text_pages(site: Site, program: drawing.Program, index: Index) -> None:
-    """Pages of packaging/site/text. A block of code that begins with ```lsys is a pattern and is drawn."""
+    """Pages of packaging/site/text. A code block that begins with ```lsys is a pattern, which is drawn."""
     for source in sorted((HERE / "text").glob("*.md")):
         markdown, examples = source.read_text(), []
 
@@ -275,7 +275,7 @@ def assets(site: Site, program: drawing.Program, index: Index) -> None:
         site.write(f"assets/{name}", (HERE / "assets" / name).read_bytes())
     site.write("assets/index.js", index.script())
     site.write("assets/icon.svg", (ROOT / "packaging/desktop/sikku.svg").read_bytes())
-    # The kolam of the icon, with room around it for masks.
+    # The kolam of the icon, with a margin for masks.
     icon = (HERE / "assets/icon.lsys").read_text()
     for pixels in (192, 512):
         with tempfile.TemporaryDirectory() as folder:
@@ -283,7 +283,7 @@ def assets(site: Site, program: drawing.Program, index: Index) -> None:
             source.write_text(icon)
             problem = program.makes("draw", source, picture, "--size", "96x96mm", "--margin", "15mm", "--dpi", f"{pixels / 96 * 25.4:.4f}")
             if problem:
-                fail(f"the icon is not drawn: {problem}")
+                fail(f"the icon cannot be drawn: {problem}")
             site.write(f"assets/icon-{pixels}.png", png.reduced(picture.read_bytes(), 100_000))
     manifest = {
         "name": "Sikku", "short_name": "Sikku", "description": "Kolams, tilings, plants and music from L-systems",
@@ -297,7 +297,7 @@ def assets(site: Site, program: drawing.Program, index: Index) -> None:
     }  # fmt: skip
     site.write("manifest.webmanifest", json.dumps(manifest, indent=1) + "\n")
     site.write("licence.txt", (ROOT / "LICENSE").read_bytes())
-    # Some servers would otherwise leave out files or add a theme.
+    # Without this file, some servers leave out files or add a theme.
     site.write(".nojekyll", "")
 
 
@@ -322,7 +322,7 @@ class Links(HTMLParser):
     def __init__(self):
         super().__init__()
         self.targets: list[str] = []
-        self.loaded: list[tuple[str, bool]] = []  # address, whether only when it comes into view
+        self.loaded: list[tuple[str, bool]] = []  # address, True if loaded only when in view
         self.anchors: set[str] = set()
 
     def handle_starttag(self, tag, attrs):
@@ -339,7 +339,8 @@ class Links(HTMLParser):
 
 
 def check(site: Site) -> str:
-    """Every link leads to a file and an anchor of the site; no page and not the site is too large."""
+    """Checks that every link leads to a file and an anchor of the site, and that neither a page nor the site is too
+    large."""
     read: dict[str, Links] = {}
     files = set(site.files())
     problems = []
@@ -358,7 +359,7 @@ def check(site: Site) -> str:
             address, anchor = urldefrag(urljoin(f"http://site/{file}", target))
             path = unquote(address.removeprefix("http://site/"))
             if path not in files:
-                problems.append(f"{file}: the link {target} leads nowhere")
+                problems.append(f"{file}: the link {target} leads to no file")
             elif anchor and path in read and unquote(anchor) not in read[path].anchors:
                 problems.append(f"{file}: the link {target} leads to no anchor")
         weights = {file: (site.folder / file).stat().st_size}
@@ -382,7 +383,7 @@ def check(site: Site) -> str:
 
 
 def keys_of_language() -> dict[str, tuple[str, str, str]]:
-    """Values and meaning of each key, and where the manual lists it."""
+    """The values and the meaning of each key, and its place in the manual."""
     text = (ROOT / "docs/language.md").read_text()
     keys = {}
     for heading in re.findall(r"^## (Keys of .*)$", text, re.MULTILINE):
@@ -399,7 +400,7 @@ def build(site: Site, options: argparse.Namespace) -> None:
     files = site.folder / "pattern/files"
     files.mkdir(parents=True)
     flat = [each for group in all_patterns.values() for each in group]
-    # What takes long first: plants, then everything else.
+    # Slow patterns first: plants, then all others.
     queue = sorted(flat, key=lambda each: (each.kind != "plants", each.name))
     with ProcessPoolExecutor(os.cpu_count()) as pool:
         made = dict(zip((each.name for each in queue), pool.map(partial(in_process, program, files), queue)))
@@ -438,7 +439,7 @@ def main() -> None:
             fail(f"{file} is missing; {how}")
     options.program = str(Path(options.program).resolve())
     if output.exists() and not (output.is_dir() and (not any(output.iterdir()) or (output / "manifest.webmanifest").is_file())):
-        fail(f"{output} exists and is not a site; move it or choose another folder")
+        fail(f"{output} exists and is not a site of this script; move it or choose another folder")
     output.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=output.parent, prefix=output.name + ".") as folder:
         site = Site(Path(folder) / "site")

@@ -1,6 +1,6 @@
 """Makes the pictures, downloads and reports of patterns with the program.
 
-Names of patterns have no '_', so that files with it never replace the download of another pattern.
+Names of patterns do not contain '_', so files whose names contain it never replace the download of another pattern.
 """
 
 import re
@@ -22,7 +22,7 @@ GROWTH_BYTES = 9_000
 DOWNLOAD_BYTES = 2_100_000  # what is larger is not stored; its page says how to make it
 SECONDS = 120
 
-# Which kinds have melodies, unless a pattern sets keys of them.
+# The kinds whose patterns have melodies; patterns of other kinds have one if they set keys of melodies.
 HEARD = ("kolams", "kolam-library", "curves", "melodies", "arrangements")
 
 
@@ -40,7 +40,7 @@ class Program:
             return subprocess.CompletedProcess(arguments, 1, "", f"stopped after {SECONDS} s")
 
     def makes(self, command: str, pattern: Path, output: Path, *options: str) -> str:
-        """Returns "" if it has made the file, else the reason why not."""
+        """Makes a file. Returns "", or the reason if it cannot be made."""
         done = self.run("-q", command, pattern, "-o", output, *options)
         if done.returncode == 0 and output.exists():
             return ""
@@ -122,7 +122,7 @@ def draw(program: Program, pattern: Pattern, folder: Path, made: Made) -> None:
 
 
 def grow(program: Program, pattern: Pattern, folder: Path, made: Made) -> None:
-    """Earlier generations, if they differ."""
+    """Draws earlier generations, if they differ."""
     if pattern.kind in ("kolam-library", "melodies", "words") or not pattern.steps or not made.picture:
         return
     last = pattern.steps
@@ -132,7 +132,7 @@ def grow(program: Program, pattern: Pattern, folder: Path, made: Made) -> None:
             continue
         svg = folder / f"{pattern.name}_n{n}.svg"
         options = ["-n", str(n)]
-        # Lines as wide as a step hide the first generations of a curve.
+        # A stroke as wide as a step would hide the first generations of a curve.
         stroke = re.fullmatch(r"([0-9.]+) step\b(.*)", pattern.keys.get("stroke", ""))
         if pattern.kind == "curves" and stroke and float(stroke[1]) > 0.45:
             options += ["--set", f"stroke=0.3 step{stroke[2]}"]
@@ -156,7 +156,7 @@ def vary(program: Program, pattern: Pattern, folder: Path, made: Made) -> None:
         svg = folder / f"{name}.svg"
         problem = program.makes("draw", pattern.path, svg, "--size", f"{SIZE}x{SIZE}mm", *options)
         if problem:
-            made.problems.append(f"the variant '{variant}' is not drawn: {problem}")
+            made.problems.append(f"the variant '{variant}' cannot be drawn: {problem}")
             continue
         file = svg.name
         if svg.stat().st_size > THUMBNAIL_SVG_BYTES:
@@ -177,7 +177,7 @@ def play(program: Program, pattern: Pattern, folder: Path, made: Made) -> None:
         return
     size = file.stat().st_size
     if pattern.is_arrangement:
-        # The report has a table for each part; all of them together are summed up when a file is made.
+        # The report has a table for each part; the summary of the whole is printed when a file is made.
         again = program.run("play", pattern.path, "-o", file).stderr
         match = re.search(r"(.* notes), (.* bars?), (.*), (\S+ to \S+)", again)
         if match:

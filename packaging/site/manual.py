@@ -40,8 +40,8 @@ class Document:
 
 
 class Writer(HTMLParser):
-    """Writes what is allowed of the HTML that it reads. `link` maps an address to another one, or to None, which
-    leaves its text; `picture` maps an address to another one, with width and height."""
+    """Writes the allowed parts of the HTML that it reads. `link` maps an address to another one, or to None, which
+    keeps only its text; `picture` maps an address to another one, with width and height."""
 
     def __init__(self, link, picture):
         super().__init__(convert_charrefs=True)
@@ -113,7 +113,7 @@ class Writer(HTMLParser):
         if tag == "table":
             self.parts.append("</div>")
         elif tag == "thead" and self.head_at >= 0:
-            # A head without words: Markdown has no tables without heads.
+            # An empty head: Markdown tables always have one.
             if not re.sub(r"<[^>]*>|\s", "", "".join(self.parts[self.head_at :])):
                 del self.parts[self.head_at :]
             self.head_at = -1
@@ -175,7 +175,7 @@ def contents_of(document: Document, level: int = 2) -> str:
 
 
 def resolved(address: str, source: str) -> str:
-    """An address in a document of the sources, seen from their root; anchors stay."""
+    """An address in a document of the sources, relative to their root; anchors are kept."""
     path, mark, anchor = address.partition("#")
     path = posixpath.normpath(posixpath.join(posixpath.dirname(source), path)) if path else source
     return path + mark + anchor

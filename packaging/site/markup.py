@@ -8,12 +8,12 @@ import re
 import unicodedata
 import zlib
 
-# Characters that turn the direction of a text or are invisible, which must not reach into what follows.
+# Characters that change the direction of a text or are invisible; they must not affect the text that follows.
 CONTROLS = re.compile("[\u0000-\u0008\u000b-\u001f\u007f-\u009f\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff\ufff9-\ufffb]")
 
 
 def plain(text: str) -> str:
-    """A line of text without controls and marks of direction, for titles of pages, labels and the index."""
+    """A line of text without control characters and directional marks, for titles of pages, labels and the index."""
     return re.sub(r"\s+", " ", CONTROLS.sub("", unicodedata.normalize("NFC", text))).strip()
 
 
@@ -22,7 +22,7 @@ def escaped(text: str) -> str:
 
 
 def isolated(text: str) -> str:
-    """A text that others wrote, in its own direction."""
+    """A text by other authors, isolated in its own direction."""
     return f"<bdi>{escaped(text)}</bdi>"
 
 
@@ -37,7 +37,7 @@ def slug(heading: str) -> str:
 
 
 def relative(target: str, page: str) -> str:
-    """The address of a file of the site, seen from a page."""
+    """The address of a file of the site, relative to a page."""
     path, mark, anchor = target.partition("#")
     if not path:
         return target
@@ -119,8 +119,8 @@ def page(path: str, title: str, body: str, *, about: str, section: str = "", scr
 {body}
 </main>
 <footer class="bottom">
-<p>Sikku is free software under the <a href="{to("licence.txt")}">MIT licence</a>. This site sets no cookies, counts no
-visitors and asks no other server for anything.</p>
+<p>Sikku is free software under the <a href="{to("licence.txt")}">MIT licence</a>. This site sets no cookies, does not
+count visitors and sends no requests to other servers.</p>
 <p class="offline" id="offline" hidden><button type="button" id="keep">Keep this site for offline use</button>
 <span id="keep-state" role="status"></span></p>
 </footer>

@@ -8,16 +8,16 @@ from markup import code, escaped, isolated, page, plain, relative, studio_link
 from patterns import Pattern, Rules
 
 KINDS = {
-    "kolams": ("Kolams", "Lines around dots, drawn in rice flour before the door; these are from the literature."),
+    "kolams": ("Kolams", "Lines around dots, drawn in rice flour in front of houses; these are from the literature."),
     "kolam-library": ("Kolam library", "A hundred kolams on grids of dots: straight, interlaced, radial. Each is verified: "
                       "every line closes, every dot is encircled."),
     "tilings": ("Tilings", "Tiles that fill the plane without gaps or overlaps: aperiodic, self-similar, uniform, spirals."),
     "curves": ("Curves", "Lines that fill squares, hexagons and islands, and the classical fractals."),
     "plants": ("Plants", "Branches, leaves and flowers, in the plane and in space."),
     "maps": ("Maps", "Layers of cells that grow and divide."),
-    "words": ("Words", "Derivations themselves: filaments of cells, signals, words as they grow."),
-    "melodies": ("Melodies", "Curves that are heard: height is pitch, length is time."),
-    "arrangements": ("Arrangements", "Several curves, played together."),
+    "words": ("Words", "Derivations: filaments of cells, signals, growing words."),
+    "melodies": ("Melodies", "Curves as music: height is pitch, length is duration."),
+    "arrangements": ("Arrangements", "Several curves that are played together."),
 }  # fmt: skip
 
 # Names of the lines in the reports of the program.
@@ -35,7 +35,7 @@ LEFT_OUT = {"derived", "heading", "ink", "end"}
 
 @dataclass
 class Context:
-    """What pages of patterns need besides the pattern."""
+    """What pages of patterns need in addition to the pattern."""
 
     keys: dict[str, tuple[str, str, str]]  # key: values, meaning, address in the manual
     sizes: dict[str, tuple[int, int]]  # pixels of pictures
@@ -67,7 +67,7 @@ def bytes_of(size: int) -> str:
 
 
 def readable(name: str, text: str) -> str:
-    """A line of a report, with units, and without what only programs need."""
+    """A line of a report in a form for readers: with units and without data for programs."""
     numbers = text.split()
     if name == "box" and len(numbers) in (4, 6):
         half = len(numbers) // 2
@@ -104,7 +104,7 @@ def angle_of(pattern: Pattern) -> str:
 
 
 def module(text: str) -> str:
-    """A word as it is printed; the empty word is ε."""
+    """The HTML of a word; the empty word is ε."""
     if not text:
         return "<code>ε</code>"
     if len(text) > 1200:
@@ -145,7 +145,7 @@ def system(pattern: Pattern) -> str:
 
 
 def is_brief(pattern: Pattern) -> bool:
-    """Whether the L-system fits beside the picture."""
+    """True if the L-system fits beside the picture."""
     words = [pattern.keys.get("axiom", "")]
     for rules in pattern.rules:
         words += [f"{each.predecessor}{each.condition}{each.successor}" for each in rules.productions]
@@ -221,19 +221,19 @@ def player(made: Made, path: str) -> str:
     if made.roll:
         source = escaped(relative(file_of(made.roll), path))
         roll = (
-            f'<div class="roll"><img src="{source}" width="1000" height="240" alt="The notes as bars: time runs to the right, '
+            f'<div class="roll"><img src="{source}" width="1000" height="240" alt="Piano roll: time runs to the right, '
             'pitch upwards" loading="lazy"><span class="head-line"></span></div>'
         )
     return (
         f'<div class="player" data-midi="{escaped(relative(file_of(midi), path))}" role="group" aria-label="Player" hidden>{roll}'
         '<button type="button" class="primary">Play</button><div class="place"><label class="unseen" for="place">Place</label>'
         '<input type="range" id="place" min="0" max="1000" step="1" value="0"><output for="place"></output></div></div>'
-        "<noscript><p>The player needs JavaScript; the MIDI file plays anywhere.</p></noscript>"
+        "<noscript><p>The player needs JavaScript; the MIDI file can be played by other programs.</p></noscript>"
     )
 
 
 def words(command: str) -> str:
-    """A command that is broken only between its words."""
+    """A command whose lines break only between words."""
     return re.sub(r"\S*-\S*", r'<span class="word">\g<0></span>', escaped(command))
 
 
@@ -250,9 +250,9 @@ def downloads(pattern: Pattern, made: Made, path: str) -> str:
     )
     more = ""
     if made.too_large:
-        sizes = " and ".join(f"{label} has {bytes_of(size)}" for label, size in made.too_large)
+        sizes = " and ".join(f"{label} ({bytes_of(size)})" for label, size in made.too_large)
         extension = made.too_large[0][0].lower()
-        more = f'<p class="small">The {sizes}; make it with {code(f"sikku draw {pattern.name} -o {pattern.name}.{extension}")}.</p>'
+        more = f'<p class="small">The site does not store the {sizes}; make it with {code(f"sikku draw {pattern.name} -o {pattern.name}.{extension}")}.</p>'
     return f'<ul class="downloads" aria-label="Downloads">{entries}</ul>{more}'
 
 
@@ -300,7 +300,7 @@ def pattern_page(pattern: Pattern, made: Made, group: list[Pattern], context: Co
 
     melody = player(made, path)
     is_musical = pattern.kind in ("melodies", "arrangements")
-    heard = "" if is_musical else '<p class="small measure">The line read as a melody: a horizontal run is a note, its height the pitch.</p>'
+    heard = "" if is_musical else '<p class="small measure">The line read as a melody: each horizontal run is a note, and its height is the pitch.</p>'
     if melody and is_musical:
         part("Listen", melody, facts(made.melody))
     if pattern.is_arrangement:
@@ -319,7 +319,7 @@ def pattern_page(pattern: Pattern, made: Made, group: list[Pattern], context: Co
         claims = relative("manual/claims.html", path)
         examined = section(
             "Certificate", facts(made.certificate, "facts verdict"),
-            f'<p class="small measure">Examined by the program. <a href="{claims}">What such an answer claims, and what it does not</a>.</p>',
+            f'<p class="small measure">The program has verified these statements. <a href="{claims}">What they claim, and what they do not</a>.</p>',
         )  # fmt: skip
     measured = section("Measures", facts(made.report))
     if examined and measured:
@@ -365,7 +365,7 @@ def card(pattern: Pattern, made: Made, context: Context, path: str, *, with_sour
         source = source[:88] + " …"
     source = f'<span class="from">{isolated(source)}</span>' if with_source and source and pattern.kind != "kolam-library" else ""
     address = escaped(relative(address_of(pattern), path))
-    # What the filter finds besides what is shown.
+    # Text that the filter searches in addition to what is shown.
     words = plain(f"{pattern.description} {dict(made.certificate).get('kolam', '')} {dict(made.certificate).get('symmetry', '')}")[:300]
     return f'<li data-words="{escaped(words)}"><a href="{address}">{picture}<span class="name">{isolated(pattern.title)}</span>{source}</a></li>'
 
@@ -384,7 +384,7 @@ def kind_page(kind: str, group: list[Pattern], made: dict[str, Made], context: C
     return page(path, f"{name} – Sikku", body, about=about, section="patterns/index.html")
 
 
-# What the overview shows of each kind.
+# The patterns of each kind that the overview shows.
 PICKED = {
     "kolams": ("anklets-of-krishna", "kooja-kolam", "padi-star", "bag-of-candies"),
     "kolam-library": ("kolam-radial-12x7", "kolam-9x9-zz3jrmhm", "kolam-triangle-6-t7eqgsmx", "kolam-9-5-idukku-1je896k5"),
@@ -412,15 +412,15 @@ def overview_page(patterns: dict[str, list[Pattern]], made: dict[str, Made], con
             f'<p>{escaped(about)}</p><ul class="{classes}">{cards}</ul></section>'
         )
     body = (
-        f'<div class="head"><h1>Patterns</h1><p class="lede">{total} patterns come with the program, each with its source. Open one in the '
-        f'studio, change it, print it, listen to it.</p></div><div class="kinds">{sections}</div>'
+        f'<div class="head"><h1>Patterns</h1><p class="lede">{total} patterns come with the program, each with its source. Open a pattern '
+        f'in the studio, change it, print it, or listen to it.</p></div><div class="kinds">{sections}</div>'
     )
     return page(path, "Patterns – Sikku", body, about=f"{total} L-systems from the literature, with pictures, productions and sources.")
 
 
 def front_page(three: list[tuple[str, str, str]], example: str, example_picture: str, heard: tuple[Pattern, Made] | None,
                begin: list[tuple[str, Pattern]], total: int, version: str, context: Context) -> str:  # fmt: skip
-    """`three` are a file, the name of a pattern and a caption; `begin` are patterns that the studio opens with."""
+    """`three` lists a file, the name of a pattern and a caption; `begin` lists patterns that open in the studio."""
     path = "index.html"
     figures = "".join(
         f'<figure><a href="pattern/{name}.html">{image(context, path, file, caption, lazy=False)}</a>'
@@ -439,7 +439,7 @@ def front_page(three: list[tuple[str, str, str]], example: str, example_picture:
     if heard and (controls := player(heard[1], path)):
         melody = (
             '<section class="part" aria-labelledby="hear"><h2 id="hear">The same two rules, heard</h2><p class="measure">Height is pitch, '
-            f'length is time: <a href="{address_of(heard[0])}">{isolated(heard[0].title)}</a>, a prelude in a raga of South India.</p>'
+            f'length is duration: <a href="{address_of(heard[0])}">{isolated(heard[0].title)}</a>, a prelude in a raga of South India.</p>'
             f"{controls}</section>"
         )
     links = [
@@ -460,30 +460,30 @@ and the score. <em>Sikku</em> is Tamil for the knot of a kolam line.</p>
 <section class="split">
 <div><h2>Two rules, one line</h2>
 <p>X and Y are replaced again and again, five times. Then a turtle reads the word: F is a step, + and − are turns.
-What it draws is Hilbert’s curve. Change a letter and see what becomes of it.</p>
+It draws Hilbert’s curve. Change a letter and see what happens.</p>
 <pre tabindex="0"><code>{escaped(example)}</code></pre>
 <p><a href="{escaped("studio/index.html#" + studio_link("hilbert.lsys", example))}">Open it in the studio</a></p></div>
 <figure>{image(context, path, example_picture, "Hilbert’s curve: one line that fills a square")}</figure>
 </section>
 {melody}
 <section class="try" aria-labelledby="try"><h2 id="try">Try it now</h2>
-<p class="measure">The studio is one page: write, see, vary, play, export. It runs in the browser and sends nothing anywhere; it loads
-about 2 MB when you open it.</p>
+<p class="measure">The studio is a page on which you write, see, vary, play and export patterns. It runs in the
+browser and sends no data; opening it loads about 2 MB.</p>
 <div id="studio-place"><a class="poster" href="studio/index.html" data-studio>
 <img src="assets/studio.png" width="{width}" height="{height}" loading="lazy"
 alt="Open the studio here: the text of a pattern on the left, its picture in the middle"></a></div>
 {choices}
 <p><a href="studio/index.html">Open the studio in a page of its own</a></p></section>
 <section class="split top-aligned" aria-labelledby="install"><div><h2 id="install">Two commands to a first print</h2>
-<p>Install the program, and draw a kolam in millimetres, as PDF for A3. Packages for Debian 12, other Linux systems, Python
-and Node.js are listed in <a href="manual/readme.html#install">Install</a>.</p></div>
+<p>Install the program, and draw a kolam as a PDF of size A3. Packages for Debian 12, other Linux systems, Python and
+Node.js are listed in <a href="manual/readme.html#install">Install</a>.</p></div>
 <div>{command("install-command", install)}{command("print-command", "sikku draw anklets-of-krishna --size A3 -o kolam.pdf")}</div></section>
 <section aria-labelledby="more"><h2 id="more">Where to go</h2>
 <ul class="entries">
 <li><a href="first-steps.html">First steps</a><p>What an L-system is, in ten minutes and six examples.</p></li>
 <li><a href="patterns/index.html">Patterns</a><p>{total}, most of them from the literature: kolams, tilings, curves, plants, maps,
 words, melodies, arrangements.</p></li>
-<li><a href="manual/index.html">Manual</a><p>Tutorial, the language, prints, scores, galleries, libraries for C++, Python and JavaScript.</p></li>
+<li><a href="manual/index.html">Manual</a><p>The tutorial, the pattern language, prints, scores, galleries, and libraries for C++, Python and JavaScript.</p></li>
 <li><a href="teachers.html">Teachers</a><p>Workbooks, colouring pages and lessons for classes.</p></li>
 </ul></section>"""
     title = "Sikku – kolams, tilings, plants and music from L-systems"
@@ -496,18 +496,18 @@ def search_page() -> str:
 <input id="query" name="q" type="search" autocomplete="off" placeholder="Words in the manual and in patterns">
 <button type="submit" class="primary">Search</button></form>
 <p id="search-state" class="small" role="status"></p><ul class="results" id="results"></ul>
-<noscript><p>The search needs JavaScript; nothing leaves this page. The <a href="manual/index.html">manual</a> and the
-<a href="patterns/index.html">patterns</a> are lists.</p></noscript></div>"""
+<noscript><p>The search needs JavaScript and runs in the browser. The <a href="manual/index.html">manual</a> and the
+<a href="patterns/index.html">patterns</a> are also listed.</p></noscript></div>"""
     return page("search.html", "Search – Sikku", body, about="Search the manual and the patterns.", scripts=("index.js", "search.js"))
 
 
 def offline_page() -> str:
-    body = """<div class="head"><h1>Not here yet</h1><p class="lede">There is no network, and this page has not been kept. What you have
-opened before is still here: the <a href="index.html">front page</a>, <a href="first-steps.html">first steps</a> and the
-<a href="manual/index.html">manual</a>.</p></div>"""
+    body = """<div class="head"><h1>Not available offline</h1><p class="lede">There is no network, and this page is not stored.
+Pages that you have opened before are available, and so are the <a href="index.html">front page</a>, the
+<a href="first-steps.html">first steps</a> and the <a href="manual/index.html">manual</a>.</p></div>"""
     return page("offline.html", "Offline – Sikku", body, about="This page is not stored for offline use.")
 
 
 def summary_of(text: str) -> str:
-    """Markdown of one line as text."""
+    """The text of a line of Markdown."""
     return plain(re.sub(r"[`*_]|\[([^\]]*)\]\([^)]*\)", r"\1", text))

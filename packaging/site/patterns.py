@@ -1,4 +1,4 @@
-"""Reads the files of patterns and arrangements as far as their pages show them."""
+"""Reads the parts of pattern and arrangement files that their pages show."""
 
 import re
 import tomllib
@@ -63,7 +63,7 @@ class Pattern:
 
 
 def typographic(text: str) -> str:
-    """Quotation marks and apostrophes as books print them."""
+    """Replaces straight quotation marks and apostrophes by typographic ones."""
     return re.sub(r'"([^"<>=]*)"', r"“\1”", re.sub(r"(?<=\w)'(?=\w)", "’", text))
 
 
@@ -83,7 +83,7 @@ def production(line: str) -> Production:
 
 
 def lines_of(text: str) -> list[str]:
-    """Lines without those that are comments; a blank and `\\` at the end of a line continue it."""
+    """The lines that are not comments; a blank and `\\` at the end of a line continue it."""
     lines: list[str] = []
     continues = False
     for line in text.splitlines():
@@ -154,7 +154,7 @@ def read_all(folder: Path) -> dict[str, list[Pattern]]:
                 if not NAME.fullmatch(name):
                     raise ValueError(f"{file}: a name consists of a to z, 0 to 9, '.' and '-'")
             if file.stem in seen:
-                raise ValueError(f"{file} has the name of {seen[file.stem]}")
+                raise ValueError(f"{file} has the same name as {seen[file.stem]}")
             seen[file.stem] = file
             read = read_arrangement if file.suffix == ".toml" else read_pattern
             patterns.setdefault(kind.name, []).append(read(kind.name, file))

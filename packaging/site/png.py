@@ -58,7 +58,7 @@ def rows_of(data: bytes) -> list[bytes]:
         elif kind == b"IDAT":
             packed += contents
     if depth != 8 or colour not in (2, 3, 6) or interlace:
-        raise ValueError("a PNG that has not 8 bits for each channel, or no colours")
+        raise ValueError("expected a PNG with colours and 8 bits for each channel")
     step = {2: 3, 3: 1, 6: 4}[colour]
     length = width * step
     raw = zlib.decompress(packed)

@@ -1,4 +1,4 @@
-"""The index of the site: which words stand in which sections and on which pages of patterns."""
+"""The index of the site: the words of each section and of each page of a pattern."""
 
 import json
 import re
@@ -8,7 +8,7 @@ from markup import plain
 
 EXCERPT = 150  # characters
 
-# Words that stand nearly everywhere.
+# Words that occur on nearly every page.
 COMMON = set(
     "a an and are as at be by for from if in into is it its of on one or that the their them then there they this to "
     "which with where what when without has have not no can each all also only so than".split()

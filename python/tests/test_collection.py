@@ -38,7 +38,7 @@ def test_an_arrangement_of_files(tmp_path: Path) -> None:
     assert sikku.load_arrangement(text=piece.text).notes().key.tolist() == notes.key.tolist()
 
 
-def test_upbeats_are_told() -> None:
+def test_upbeats_are_stated() -> None:
     pattern = sikku.load(text="axiom: FF\nheading: 0\n")
     assert pattern.notes().upbeat == 0
     assert pattern.notes(upbeat="1/8").upbeat == 240

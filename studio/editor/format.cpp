@@ -46,7 +46,7 @@ private:
         if (text_.substr(begin, end - begin) != wanted) edits_.push_back({begin, end, std::string(wanted)});
     }
 
-    /// Writes a separator and the blanks around it, unless there are also a comment or a line end.
+    /// Writes a separator and the blanks around it, unless a comment or a line end is next to it.
     void space(const Span& before, std::string_view separator, const Span& after, bool is_tight = false) {
         if (before.empty() || after.empty()) return;
         const std::size_t begin = end_of(before);

@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t most_productions_shown = 8;
 constexpr std::int64_t most_lengths_shown = 10;
 
-/// A text between backquotes, which Markdown shows as it is.
+/// A text between backquotes, which Markdown shows unchanged.
 std::string code(std::string_view text) {
     const std::string plain = printable(text, 120);
     if (plain.find('`') == std::string::npos) return fmt::format("`{}`", plain);
@@ -40,7 +40,7 @@ std::string capital(std::string_view text) {
     return result;
 }
 
-/// Words of a description of values, which are not values themselves.
+/// Words that describe values and are not values.
 bool is_prose(std::string_view text) {
     static const std::set<std::string_view> words = {
         "a",   "an",      "the",    "such",    "or",      "as",         "of",       "to",
@@ -105,7 +105,7 @@ Completion key_completion(const KeyInfo& key) {
     return item;
 }
 
-/// Lines that are not keys: what they begin with, and their help.
+/// The beginnings of lines without keys, and their help.
 constexpr std::pair<std::string_view, std::string_view> sections[] = {
     {"define ", "A constant: `define NAME = EXPRESSION`"},
     {"table ", "Productions that the schedule applies: `table NAME:`, and productions on the lines after it"},
@@ -174,7 +174,7 @@ std::string help_for(const Occurrence& name, const Pattern& pattern, const std::
         case NameKind::formal:
             return fmt::format("**{}**\n\nA parameter of this production", code(text));
         case NameKind::variant:
-            return fmt::format("**variant {}**\n\n`sikku draw --variant` and the studio choose it by its name",
+            return fmt::format("**variant {}**\n\nChoose it with `sikku draw --variant` or in the studio",
                                code(text));
         case NameKind::arrow:
             return {};
@@ -191,7 +191,7 @@ std::string growth_table(const Document& document, const Monitor& monitor) {
         std::string text;
         try {
             text = measures_text(document.with({{"derivation length", fmt::format("{}", n)}}), monitor);
-        } catch (const PatternError&) {  // a schedule may be shorter
+        } catch (const PatternError&) {  // the schedule can be shorter
         }
         if (!text.empty()) rows += fmt::format("\n| {}{} | {} |", n, n == steps ? " (set)" : "", text);
     }

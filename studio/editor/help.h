@@ -38,7 +38,7 @@ struct Completion {
     bool is_key = false;
 };
 
-/// What may follow the beginning of a line.
+/// The completions of a line at the cursor.
 struct Completions {
     std::size_t begin = 0;  ///< byte offset into the text, from where to the cursor the completion replaces
     std::vector<Completion> items;

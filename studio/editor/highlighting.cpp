@@ -131,7 +131,7 @@ Names functions() {
     return longest_first(names);
 }
 
-/// Escapes `special` characters with a backslash, and lets any blanks stand for a blank.
+/// Escapes `special` characters with a backslash, and replaces a blank by a pattern for blanks.
 std::string escaped(std::string_view text, std::string_view special, std::string_view blanks) {
     std::string result;
     for (const char byte : text) {
@@ -334,7 +334,7 @@ std::string vim_alternation(const Names& names) {
     return fmt::format(R"(\%({}\))", fmt::join(all, R"(\|)"));
 }
 
-/// Groups, and the groups of every colour scheme that they look like.
+/// Syntax groups, and the standard groups that they link to.
 constexpr std::pair<const char*, const char*> vim_groups[] = {
     {"Comment", "Comment"},     {"Key", "Identifier"},       {"Colon", "Delimiter"},    {"Section", "Statement"},
     {"SectionName", "Title"},   {"Table", "Title"},          {"Variant", "Title"},      {"Setting", "Identifier"},

@@ -1,14 +1,14 @@
-// studio/editor/highlighting.h: grammars for the highlighting of editors, made from the tables of the language.
+// studio/editor/highlighting.h: grammars for syntax highlighting, made from the tables of the language.
 #pragma once
 
 #include <string>
 
 namespace sikku {
 
-/// A TextMate grammar as JSON, which VS Code and other editors read.
+/// A TextMate grammar in JSON, for VS Code and other editors.
 std::string textmate_grammar();
 
-/// A syntax file of Vim.
+/// A syntax file for Vim and Neovim.
 std::string vim_syntax();
 
 }  // namespace sikku

@@ -45,7 +45,7 @@ enum ErrorCode : int {
     request_failed = -32803,
 };
 
-/// An error that is answered.
+/// An error that the server sends as the answer to a request.
 class ServerError : public std::runtime_error {
 public:
     ServerError(int code, const std::string& message) : std::runtime_error(message), code_(code) {}
@@ -55,7 +55,7 @@ private:
     int code_;
 };
 
-/// Ends the work on a request because other messages arrived; it is done again after these.
+/// Ends the work on a request because other messages arrived; the work starts again after these.
 class Postponed {};
 
 /// Stops work after some time, when the program is asked to stop, or when messages arrive.
@@ -127,7 +127,7 @@ Json range_of(const TextPositions& positions, const Span& span) {
     return range_of(positions, span.at, std::size_t{span.at} + span.length);
 }
 
-/// The end of the word or character at a byte; of a line end, the byte itself.
+/// The end of the word or character at a byte; at a line end, the byte itself.
 std::size_t end_of_word(std::string_view text, std::size_t begin) {
     std::size_t end = begin;
     if (end >= text.size() || text[end] == '\n' || text[end] == '\r') return end;
@@ -156,7 +156,7 @@ bool has_colours(const std::string& name) {
     return key && key->owner == KeyOwner::art && key->values.find("colour") != std::string_view::npos;
 }
 
-/// Kinds of names as editors colour them. Symbols of one character are left to the grammar.
+/// Kinds of names that editors colour. The grammar colours symbols of one character.
 constexpr std::array token_types = {"property", "class", "variable", "parameter", "operator", "function"};
 std::optional<std::size_t> token_type(const Occurrence& name) {
     switch (name.kind) {
@@ -181,7 +181,7 @@ std::optional<std::size_t> token_type(const Occurrence& name) {
 
 }  // namespace
 
-/// A document that was read for a request.
+/// A document as it is read for a request.
 struct LanguageServer::View {
     explicit View(const OpenDocument& document)
         : pattern(parse_pattern(document.name, document.text, diagnostics)), positions(pattern.source->text()) {
@@ -234,7 +234,7 @@ const LanguageServer::Method* LanguageServer::find_method(std::string_view name)
 
 void LanguageServer::reply(const Json& id, const char* member, Json value) {
     const Json message = {{"jsonrpc", "2.0"}, {"id", id}, {member, std::move(value)}};
-    // Messages may quote parts of characters.
+    // Messages can contain incomplete characters.
     send_(message.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
@@ -250,14 +250,14 @@ void LanguageServer::refuse(const std::string& reason) {
 void LanguageServer::receive(const std::string& message) {
     try {
         Json request = read_json(message);
-        if (!request.is_object()) throw ServerError(invalid_request, "expected a message as an object");
+        if (!request.is_object()) throw ServerError(invalid_request, "expected an object");
         if (request.contains("method")) {
             if (request["method"] == "$/cancelRequest") {
                 if (request.contains("params")) cancel(request["params"]);
             } else {
                 waiting_.push_back(std::move(request));
             }
-        } else if (!request.contains("result") && !request.contains("error")) {  // not an answer either
+        } else if (!request.contains("result") && !request.contains("error")) {  // nor a response
             throw ServerError(invalid_request, "'method' is missing");
         }
     } catch (const JsonError& error) {
@@ -270,7 +270,7 @@ void LanguageServer::receive(const std::string& message) {
     }
 }
 
-/// Answers a request that waits at once; others were answered before.
+/// Cancels a waiting request; a request that does not wait has been answered.
 void LanguageServer::cancel(const Json& parameters) {
     if (!parameters.is_object() || !parameters.contains("id")) return;
     const auto found = std::find_if(waiting_.begin(), waiting_.end(), [&](const Json& request) {
@@ -324,9 +324,9 @@ void LanguageServer::work() {
 }
 
 Json LanguageServer::answer(const std::string& method, const Json& parameters) {
-    if (is_shut_down_) throw ServerError(invalid_request, "the server is shut down");
+    if (is_shut_down_) throw ServerError(invalid_request, "the server has been shut down");
     if (!is_initialized_ && method != "initialize") {
-        throw ServerError(not_initialized, "expected the request 'initialize' first");
+        throw ServerError(not_initialized, "expected the request 'initialize' before any other");
     }
     const Method* found = find_method(method);
     if (!found) throw ServerError(unknown_method, fmt::format("unknown method '{}'", printable(method, 80)));
@@ -365,7 +365,7 @@ void LanguageServer::put(const Json& document, const std::string& text) {
     open_bytes_ += open.text.size();
 }
 
-/// Editors are asked for whole texts; parts of them are accepted, too.
+/// The server requests whole texts, but also accepts changed parts.
 void LanguageServer::change(const Json& document, const Json& changes) {
     if (!changes.is_array()) throw BadRequest("'contentChanges' must be a list");
     for (const Json& each : changes) {
@@ -417,8 +417,8 @@ Json LanguageServer::diagnostics_of(const OpenDocument& document) const {
     if (!document.is_served()) {
         return Json::array(
             {entry(0, 0, error,
-                   fmt::format("this document of {} is too large for an editor: documents are checked up "
-                               "to 4 MB, and all open ones up to 64 MB",
+                   fmt::format("this document of {} is too large for an editor; the limits are 4 MB for a "
+                               "document and 64 MB for all open documents",
                                bytes_text(static_cast<double>(document.size))))});
     }
     Json list = Json::array();
@@ -434,9 +434,9 @@ Json LanguageServer::diagnostics_of(const OpenDocument& document) const {
         }
     } catch (const Stopped&) {
         stop_.check();
-        list.push_back(entry(0, 0, warning, "checking this pattern takes longer than 2 s; it was not checked"));
+        list.push_back(entry(0, 0, warning, "the pattern was not checked: checking takes longer than 2 s"));
     } catch (const std::bad_alloc&) {
-        list.push_back(entry(0, 0, warning, "there is not enough memory to check this pattern"));
+        list.push_back(entry(0, 0, warning, "the pattern was not checked: not enough memory"));
     }
     return list;
 }

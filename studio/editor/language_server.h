@@ -1,4 +1,4 @@
-// studio/editor/language_server.h: a server of the language server protocol: messages in, messages out.
+// studio/editor/language_server.h: a language server that receives and sends messages.
 // Source: Microsoft, Language Server Protocol 3.17; JSON-RPC 2.0.
 #pragma once
 
@@ -16,16 +16,16 @@
 
 namespace sikku {
 
-/// Serves documents that an editor has open: errors while they are written, help, completion, definitions, renaming,
-/// formatting, colours, and the sizes of what they draw. Not thread-safe. Memory: that of the documents.
+/// Serves the open documents of an editor: errors while the user types, help, completion, definitions, renaming,
+/// formatting, colours, and the sizes of drawings. Not thread-safe. Memory: that of the documents.
 class LanguageServer {
 public:
-    /// Takes a message: JSON, without its header.
+    /// Receives an outgoing message: JSON, without its header.
     using Send = std::function<void(const std::string& message)>;
 
-    /// The largest document that is served; of a larger one only its size is reported.
+    /// The size of the largest document that is served, in bytes; for a larger one, only its size is reported.
     static constexpr std::size_t most_document_bytes = std::size_t{4} << 20U;
-    /// All open documents together.
+    /// The largest size of all open documents together, in bytes.
     static constexpr std::size_t most_open_bytes = std::size_t{64} << 20U;
 
     /// True if messages arrived that receive() has not been given yet.
@@ -36,23 +36,23 @@ public:
     explicit LanguageServer(Send send, HasNews news = {}, Monitor stop = {})
         : send_(std::move(send)), news_(std::move(news)), stop_(stop) {}
 
-    /// Takes a message, which work() answers, unless a later one cancels it. What is not a message is refused at
-    /// once. @throws what `send` throws
+    /// Receives a message. work() answers it, unless a later message cancels it. A text that is not a message is
+    /// refused at once. @throws what `send` throws
     void receive(const std::string& message);
-    /// Answers a message that could not be read. @param reason  a sentence
+    /// Reports a message that cannot be read. @param reason  a sentence
     void refuse(const std::string& reason);
-    /// Answers the oldest message that waits, if there is one; errors in it are answers, too. @throws what `send`
-    /// throws; Stopped
+    /// Answers the oldest waiting message, if there is one; errors in it are also sent as answers. @throws what
+    /// `send` throws; Stopped
     void work();
     /// True while messages wait for work().
     bool has_work() const { return !waiting_.empty(); }
-    /// Sends the errors of documents that changed, if no further change waits. work() does so before it answers a
-    /// request; call it, too, when nothing waits. @throws as work()
+    /// Sends the errors of changed documents, if no further change waits. work() calls it before it answers a
+    /// request; also call it when no message waits. @throws as work()
     void publish();
 
     /// True once the editor has sent `exit`.
     bool has_ended() const { return has_ended_; }
-    /// 0 if the editor asked for the shutdown before, else 1.
+    /// 0 if the editor requested the shutdown before, otherwise 1.
     int exit_status() const { return is_shut_down_ ? 0 : 1; }
 
 private:
@@ -63,7 +63,7 @@ private:
         bool is_changed = true;
         bool is_served() const { return size == text.size(); }
     };
-    struct View;  // an open document, read
+    struct View;  // an open document as it is read for a request
 
     using Answer = Json (LanguageServer::*)(const Json& parameters);
     struct Method;

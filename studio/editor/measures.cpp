@@ -25,7 +25,7 @@ std::string decimal_text(const Quantity& quantity) {
     return quantity.digits.empty() ? fmt::format("{}", quantity.value) : quantity.digits;
 }
 
-/// True if the line passes through moves, too. False for a pattern whose keys of prints have errors.
+/// True if the line also passes through moves. False for a pattern whose print keys have errors.
 bool is_spline(const Document& document) {
     try {
         return read_print_style(document, {}).line == Line::spline;

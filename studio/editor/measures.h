@@ -1,4 +1,4 @@
-// studio/editor/measures.h: what a pattern draws, measured fast enough to be shown while it is written.
+// studio/editor/measures.h: sizes of drawings, measured fast enough to be shown while the user types.
 #pragma once
 
 #include "engine/base/monitor.h"
@@ -10,7 +10,7 @@
 
 namespace sikku {
 
-/// Sizes of a word or a map. Texts are numbers of any length: `1365`, `about 10^24081`; empty: unknown.
+/// Sizes of a word or a map. The texts are numbers of any length: `1365`, `about 10^24081`; empty: unknown.
 struct QuickMeasures {
     std::string symbols;
     std::string segments;  ///< drawn; of splines, moves
@@ -20,7 +20,7 @@ struct QuickMeasures {
     std::string most;          ///< if it is not: the largest derivation length that is
 };
 
-/// Measures a pattern if that visits at most 3 million nodes; otherwise parts stay unknown. Maps are not measured.
+/// Measures a pattern in at most 3 million nodes; sizes that need more stay unknown. Maps are not measured.
 /// @throws Stopped
 QuickMeasures measure_quickly(const Document& document, const Monitor& monitor = {});
 

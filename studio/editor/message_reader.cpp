@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t most_header_bytes = 4096;
 
-/// The length in a header, which consists of lines `Name: value`; nullopt if it has none, or is not a header.
+/// The length in a header of lines `Name: value`; nullopt if the header has none or is invalid.
 std::optional<std::size_t> content_length(std::string_view header) {
     std::optional<std::size_t> length;
     while (!header.empty()) {
@@ -57,7 +57,7 @@ bool MessageReader::read_header() {
         end = bare;
         after = end + 2;
     }
-    if (end > most_header_bytes) {  // also if there is none
+    if (end > most_header_bytes) {  // also if the header does not end
         is_broken_ = text.size() > most_header_bytes;
         return false;
     }

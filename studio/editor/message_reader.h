@@ -9,7 +9,7 @@
 
 namespace sikku {
 
-/// Separates messages, each of which follows a header with its length in bytes.
+/// Separates messages. A header with the length in bytes precedes each message.
 class MessageReader {
 public:
     /// The largest message that is read, in bytes: a document of 64 MB with its escapes. Larger ones are skipped.
@@ -21,18 +21,18 @@ public:
         bool is_skipped = false;  ///< too large; the content is empty
     };
 
-    /// Takes bytes as they arrive.
+    /// Adds bytes as they arrive.
     void add(std::string_view bytes);
-    /// The next whole message; nullopt if more bytes are needed.
+    /// The next complete message; nullopt if more bytes are needed.
     std::optional<Message> next();
-    /// True after a header that cannot be read: where the next message begins is then unknown.
+    /// True after an invalid header; the beginning of the next message is then unknown.
     bool is_broken() const { return is_broken_; }
 
 private:
     bool read_header();
 
     std::string waiting_;                // bytes that belong to no message yet
-    std::size_t at_ = 0;                 // in them: where the rest begins
+    std::size_t at_ = 0;                 // offset of the first unread byte
     std::optional<std::size_t> length_;  // of the current message, once its header was read
     std::size_t skipped_ = 0;            // bytes of the current message, if it is too large
     bool is_broken_ = false;

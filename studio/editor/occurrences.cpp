@@ -70,7 +70,7 @@ private:
         }
     }
 
-    /// Names of tables, and in their counts defines; `n` is the derivation length there.
+    /// Names of tables, and of defines in their counts; there, `n` is the derivation length.
     void add_schedule(const Span& value) {
         const std::string_view text = value.view();
         std::size_t depth = 0;

@@ -1,4 +1,4 @@
-// studio/editor/occurrences.h: the names in the text of a pattern, with what each of them means.
+// studio/editor/occurrences.h: the names in the text of a pattern, and their meanings.
 #pragma once
 
 #include "engine/language/pattern.h"
@@ -37,11 +37,11 @@ struct Occurrence {
     bool is_same(const Occurrence& other) const;
 };
 
-/// All names in the text of a pattern without errors, sorted by place. Parts with errors are skipped as far as they
-/// cannot be read. Cost: linear in the text, and a look into a table for each name.
+/// The names in the text of a pattern, sorted by place. Parts that cannot be read because of errors are skipped.
+/// Cost: linear in the text, and a table lookup for each name.
 std::vector<Occurrence> occurrences(const Pattern& pattern);
 
-/// The occurrence that contains the byte at an offset, or ends there; null if there is none.
+/// The occurrence that contains the byte at an offset or ends there; null if there is none.
 const Occurrence* find_occurrence(const std::vector<Occurrence>& all, std::size_t offset);
 
 }  // namespace sikku

@@ -24,7 +24,7 @@ Document compiled(const Pattern& pattern, std::string text, std::string_view con
     return document;
 }
 
-/// Symbols are numbered in the order of the text, so those of both grammars correspond.
+/// Symbols are numbered in the order of the text, so the symbols of both grammars correspond.
 bool has_same_effect(const Grammar& one, const Grammar& other) {
     const auto& a = one.symbols();
     const auto& b = other.symbols();
@@ -56,7 +56,7 @@ std::vector<TextEdit> renaming(const Pattern& pattern, const std::vector<Occurre
     if (new_name == old_name) return {};
     const std::string shown = printable(new_name, 80);
     if (name.kind == NameKind::symbol && sounds_names(pattern)) {
-        throw RenameError("under 'named notes: yes' symbols sound the notes that they name");
+        throw RenameError("under 'named notes: yes' the name of a symbol is its note; it cannot be renamed");
     }
     const Document before = compiled(pattern, pattern.source->text(), "the pattern has errors");
     std::vector<TextEdit> edits;
@@ -78,7 +78,8 @@ std::vector<TextEdit> renaming(const Pattern& pattern, const std::vector<Occurre
     if (!is_same)
         throw RenameError(fmt::format("'{}' is not a valid name here, or already has another meaning", shown));
     if (!has_same_effect(before.grammar(), after.grammar())) {
-        throw RenameError(fmt::format("renaming '{}' to '{}' would change what the pattern does", old_name, shown));
+        throw RenameError(
+            fmt::format("renaming '{}' to '{}' would change the meaning of the pattern", old_name, shown));
     }
     return edits;
 }

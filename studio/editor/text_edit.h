@@ -1,4 +1,4 @@
-// studio/editor/text_edit.h: changes of a text, and places in it as editors count them.
+// studio/editor/text_edit.h: edits of a text, and positions in it as editors count them.
 #pragma once
 
 #include "engine/base/diagnostic.h"
@@ -20,7 +20,7 @@ struct TextEdit {
 /// Applies edits that are sorted and do not overlap.
 std::string with_edits(std::string_view text, const std::vector<TextEdit>& edits);
 
-/// A place as the language server protocol counts it: lines from 0, and UTF-16 code units in the line from 0.
+/// A position as the language server protocol counts it: lines from 0, and UTF-16 code units in the line from 0.
 struct EditorPosition {
     std::size_t line = 0;
     std::size_t character = 0;
@@ -43,7 +43,7 @@ public:
 private:
     std::size_t end_of_line(std::size_t line) const;
     std::string_view text_;
-    std::vector<std::size_t> lines_;  // where they begin; they end at a line feed, a carriage return, or both
+    std::vector<std::size_t> lines_;  // where lines begin; they end at a line feed, a carriage return, or both
 };
 
 }  // namespace sikku

@@ -1,5 +1,5 @@
-// Measures the language server: how long it takes to start, and from a keystroke to its errors, on each pattern. Each
-// keystroke is followed at once by the requests that VS Code sends: sizes, colours, names.
+// Measures the language server: the time to start it and, for each pattern, the time from a keystroke to the report of
+// errors. The requests that VS Code sends follow each keystroke at once: sizes, colours, names.
 // usage: node tests/bench/language_server.mjs PROGRAM PATTERN…
 import {readFileSync} from "node:fs";
 import {LanguageClient} from "../full/language_client.mjs";
@@ -28,7 +28,7 @@ for (const file of files) {
   await reported;
   const keystrokes = [];
   for (let round = 0; round < 8; ++round) {
-    // Somebody writes a comment; after its first slash, the pattern has an error.
+    // The keystrokes of a comment; after its first slash, the pattern has an error.
     const changed = text + "\n// hello".slice(0, 1 + round);
     reported = client.diagnostics(uri);
     const begin = performance.now();

@@ -1,5 +1,5 @@
--- Called by editors.sh in Neovim: its client of language servers with `sikku lsp`, and the syntax file of Vim.
--- Environment: SIKKU, the program; FOLDER, an empty folder; PATTERNS, a list of files, one a line.
+-- Called by editors.sh in Neovim: tests its language server client with `sikku lsp`, and the syntax file of Vim.
+-- Environment: SIKKU, the program; FOLDER, an empty folder; PATTERNS, a list of files, one per line.
 local program, folder = vim.env.SIKKU, vim.env.FOLDER
 
 local function check(condition, ...)
@@ -44,7 +44,7 @@ local function run()
     return vim.diagnostic.get(0)
   end
 
-  -- A pattern with two errors, which are reported, and vanish once they are corrected.
+  -- Two errors of a pattern are reported, and no longer after their correction.
   local file = folder .. "/mine.lsys"
   vim.fn.writefile({
     "title: 𝄞 mine", "derivation length: 3", "angel factor: 4", "stroke: 0.4mm #f80", "symbols: bud", "axiom: bud α𝄞(F",
@@ -119,7 +119,7 @@ local function run()
     for _, one in ipairs(errors()) do
       check(one.severity ~= vim.diagnostic.severity.ERROR, pattern, one)
     end
-    -- Every character but blanks belongs to a group of the syntax file; comments are where a scanner finds them.
+    -- Every character except blanks belongs to a syntax group; comments are where a scanner finds them.
     local inside = false
     for number, line in ipairs(text()) do
       local slashes = not inside and line:match("^%s*//")

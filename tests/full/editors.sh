@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The language server in Neovim, and the grammars for highlighting in Neovim and in the libraries that VS Code reads
-# them with, on all patterns; the extension for VS Code is packed.
+# Tests the language server in Neovim, the grammars for syntax highlighting in Neovim and in the libraries of VS Code,
+# on all patterns, and the packed extension for VS Code.
 # usage: tests/full/editors.sh PROGRAM
 set -euo pipefail
 [ $# -eq 1 ] || { echo "usage: tests/full/editors.sh PROGRAM" >&2; exit 2; }
@@ -32,7 +32,7 @@ fi
 mapfile -t patterns < "$folder/patterns"
 node "$root/tests/full/grammar.mjs" "$folder/vscode" "$program" \
     "$root/packaging/editors/vscode/syntaxes/sikku.tmLanguage.json" "${patterns[@]}" "$root"/tests/corpus/good/*.lsys
-# The extension as it is packed starts the server; VS Code is a stand-in.
+# The packed extension starts the server; a stub replaces VS Code.
 "$root/packaging/editors/vscode.sh" "$folder/out"
 (cd "$folder" && unzip -q out/*.vsix -d extension)
 node "$root/tests/full/extension.mjs" "$folder/extension/extension" "$program" "${patterns[0]}"

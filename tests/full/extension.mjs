@@ -1,5 +1,5 @@
-// Loads the packed extension for VS Code with a stand-in for the interface of VS Code: it starts the server, which
-// reports an error in a document that is open, and ends with it.
+// Loads the packed extension for VS Code with a stub of the interface of VS Code. The extension starts the server,
+// which reports an error in an open document and ends with the extension.
 // usage: extension.mjs EXTENSION_FOLDER PROGRAM PATTERN
 import assert from "node:assert/strict";
 import {readFileSync} from "node:fs";
@@ -9,7 +9,7 @@ import {pathToFileURL} from "node:url";
 const [folder, program, pattern] = process.argv.slice(2);
 const description = JSON.parse(readFileSync(`${folder}/package.json`, "utf8"));
 
-/// Whatever is not needed here: a function, a class, an object or a list.
+/// A stub of all unused members: a function, a class, an object and a list.
 const anything = new Proxy(function () {}, {
   get: (target, key) => {
     if (key === Symbol.iterator) return [][Symbol.iterator].bind([]);

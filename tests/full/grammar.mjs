@@ -1,6 +1,6 @@
-// Reads patterns with the TextMate grammar as VS Code does. Everything but blanks has a scope; comments are where a
-// scanner of this file finds them; keys, sections, constants, parameters and arrows are where the language server finds
-// them, which reads patterns with the parser of the language; symbols are where words have them.
+// Reads patterns with the TextMate grammar as VS Code does. Every character except blanks must have a scope. Comments
+// must be where a scanner of this file finds them; keys, sections, constants, parameters and arrows where the language
+// server finds them, which uses the parser of the language; symbols where they occur in words.
 // usage: grammar.mjs NODE_MODULES PROGRAM GRAMMAR PATTERN…
 import assert from "node:assert/strict";
 import {readFileSync} from "node:fs";
@@ -21,7 +21,7 @@ const registry = new Registry({
 });
 const grammar = await registry.loadGrammar("source.sikku");
 
-/// For each UTF-16 unit of each line: its scopes but the first, without the suffix.
+/// For each UTF-16 unit of each line: its scopes except the first, without the suffix.
 function scopesOf(lines) {
   let state = INITIAL;
   return lines.map(line => {
@@ -37,7 +37,7 @@ function scopesOf(lines) {
   });
 }
 
-/// A second reader of comments: true for each unit that belongs to one.
+/// A second scanner of comments: true for each unit that belongs to a comment.
 function commentsOf(lines) {
   let inside = false, continues = false;
   return lines.map(line => {
@@ -96,7 +96,7 @@ for (const file of files) {
       if (/\s/.test(line[at])) continue;
       ++counts.units;
       const names = scopes[number][at];
-      // Scopes of whole lines do not colour anything.
+      // Scopes of whole lines have no colour.
       if (!names.some(name => !name.startsWith("meta."))) fail(number, at, `'${line[at]}' has no scope`);
       const isComment = names.some(name => name.startsWith("comment."));
       if (isComment !== comments[number][at]) fail(number, at, isComment ? "not a comment" : "a comment");
@@ -121,7 +121,7 @@ for (const file of files) {
     }
     ++counts.names;
   }
-  // The other way round: nothing else has these scopes.
+  // Conversely, no other text has these scopes.
   scopes.forEach((units, number) => units.forEach((names, at) => {
     if (!named[number][at] && names.some(name => kinds.property.test(name) || kinds.operator.test(name))) {
       fail(number, at, `${names.join(", ")} is none`);

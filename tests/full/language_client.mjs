@@ -1,4 +1,4 @@
-// A client of `sikku lsp` for tests: requests, and the notices that arrive meanwhile.
+// A client of `sikku lsp` for tests: requests, and the notifications that arrive meanwhile.
 import {spawn} from "node:child_process";
 import {pathToFileURL} from "node:url";
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The page of `sikku play` in a real browser: it plays, pauses, changes tempo, loops bars, jumps to phrases, and asks the
-# network for nothing.
+# The page of `sikku play` in a real browser: it plays, pauses, changes tempo, loops bars, jumps to phrases, and sends
+# no requests to the network.
 # usage: tests/full/page.sh PROGRAM [SCREENSHOT.png]
 set -euo pipefail
 [ $# -ge 1 ] || { echo "usage: tests/full/page.sh PROGRAM [SCREENSHOT.png]" >&2; exit 2; }

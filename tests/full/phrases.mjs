@@ -1,4 +1,4 @@
-// Opens the page of a melody with phrases in a browser: marks at their beginnings, and ways to go to them.
+// Opens the page of a melody with phrases in a browser: tests the marks at their beginnings, and the jumps to them.
 // usage: phrases.mjs PLAYWRIGHT_FOLDER BROWSER PAGE [SCREENSHOT]
 import assert from "node:assert/strict";
 import {createRequire} from "node:module";
@@ -41,7 +41,7 @@ assert.equal(await tick(), phrases[2], "the beginning of the phrase itself");
 const ticks = await page.evaluate(() => [...document.getElementById("place").list.options].map(one => Number(one.value)));
 assert.deepEqual(ticks.map(value => Math.round(value / 1000 * end)), phrases);
 
-// A click on a mark in the roll goes to its first note, a click below it to the place itself.
+// A click on a mark in the piano roll jumps to its first note, a click below it to the clicked place.
 await page.evaluate(() => window.sikku.seek(0));
 await page.waitForTimeout(200);
 const marks = await page.evaluate(() => {
@@ -67,7 +67,7 @@ await page.evaluate(() => window.sikku.seek(0));
 await page.mouse.click(box.x + marks[1] + 4, box.y + 40);
 assert.ok(await tick() > phrases[1]);
 
-// While it plays, back goes to the phrase before if this one has just begun.
+// During playback, 'back' jumps to the previous phrase if the current one has just begun.
 await page.evaluate(to => window.sikku.seek(to), phrases[3]);
 await page.evaluate(() => window.sikku.play());
 await page.waitForFunction(to => window.sikku.state().tick > to, phrases[3]);

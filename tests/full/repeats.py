@@ -1,5 +1,5 @@
-"""Random forms with repeat signs, and whether other programs play the same notes with and without the signs, and those
-of our MIDI files.
+"""Makes random forms with repeat signs, and compares the notes that other programs play with the signs, those that they
+play without the signs, and those of the MIDI files of Sikku.
 
 usage: repeats.py make PROGRAM FOLDER COUNT; repeats.py compare FOLDER
 """
@@ -48,7 +48,7 @@ BUNDLED += ["hilbert-kalyani", "hilbert-todi", "peano-pentatonic", "snowflake-sh
 
 
 def made(program: str, arguments: list[str], file: pathlib.Path) -> str | None:
-    """What the program says when it makes a score; None if it refuses."""
+    """The messages of the program when it makes a score; None if it refuses."""
     run = subprocess.run([program, *arguments, "-o", file], capture_output=True, text=True, check=False)
     # Some keys exclude each other.
     assert run.returncode in (0, 1, 2), (arguments, run)
@@ -85,7 +85,7 @@ def make(program: str, folder: pathlib.Path, count: int) -> None:
         keys = {argument[2:].partition("=")[0] for argument in arguments[2:]}
         if arguments[1] in EXACT and not keys & INEXACT:
             assert made(program, arguments, folder / f"{number}.mid") is not None
-        # LilyPond takes long.
+        # LilyPond is slow.
         if number % 8 == 0:
             assert made(program, [*arguments, "--repeats"], folder / f"{number}.signs.ly") is not None
             assert made(program, arguments, folder / f"{number}.plain.ly") is not None
@@ -127,7 +127,7 @@ def expect_same(ours: list[tuple[int, int, int]], theirs: Counter[tuple[int, int
     near = {(onset + d, key): (onset, key) for d in (2, -2, 1, -1, 0) for onset, key, _ in ours}
     extra = [note for note in theirs if note not in near]
     assert not extra, f"{what}: {sorted(extra)[:5]} are not in our MIDI file"
-    # Where two voices meet on one key, others play it once.
+    # If two voices sound the same key, other programs play it once.
     for onset, key in starts(ours).keys() - {near[note] for note in theirs}:
         sounding = sum(begin <= onset <= end for begin, other, end in ours if other == key)
         assert sounding > 1, f"{what}: key {key} at {onset} is only in our MIDI file"

@@ -9,7 +9,7 @@ here=$(realpath "$(dirname "$0")")
 skip() { echo "skipped: repeat signs in other programs ($1)"; exit 0; }
 musescore=$(command -v musescore3 || command -v mscore) || skip "MuseScore is not installed"
 for tool in abc2midi lilypond; do command -v "$tool" > /dev/null || skip "$tool is not installed"; done
-# mido of Debian is known to Debian's Python alone.
+# Only the Python of Debian finds the mido package of Debian.
 python=
 for candidate in python3 /usr/bin/python3; do
     if "$candidate" -c 'import mido' 2> /dev/null; then python=$candidate; break; fi
@@ -31,7 +31,7 @@ for score in *.signs.abc; do
 done
 for score in *.ly; do
     lilypond --loglevel=WARNING -o "${score%.ly}.lilypond" "$score" > log 2>&1 || { cat log; exit 1; }
-    # Full pages have nothing to do with signs.
+    # Messages about full pages do not concern repeat signs.
     ! grep -vE 'compress' log || { echo "LilyPond warns about $score"; exit 1; }
 done
 "$python" "$here/repeats.py" compare "$folder"

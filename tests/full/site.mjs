@@ -17,7 +17,7 @@ const types = {
   ".png": "image/png", ".mid": "audio/midi", ".pdf": "application/pdf", ".webmanifest": "application/manifest+json",
   ".txt": "text/plain; charset=utf-8", ".lsys": "text/plain; charset=utf-8", ".toml": "text/plain; charset=utf-8",
 };
-// A folder on a port of its own, below /some/folder/, as sites on shared servers are.
+// Serves a folder on a separate port, below /some/folder/, as shared servers do.
 const base = "/some/folder/";
 function serve(folder) {
   const asked = [];
@@ -50,7 +50,7 @@ const complaints = [];
 function watch(page) {
   page.on("console", message => {
     if (message.type() !== "error" && message.type() !== "warning") return;
-    // Firefox fetches the icon after everything else, when this test may have left the page.
+    // Firefox fetches the icon last, possibly after this test has left the page.
     if (message.text().includes("icon.svg’. A ServiceWorker intercepted the request")) return;
     if (message.text().endsWith("Service Worker registration blocked by Playwright")) return;
     complaints.push(`${page.url()}: ${message.text()}`);
@@ -104,7 +104,7 @@ const blocked = {serviceWorkers: "block"};
   await page.close();
 }
 
-// Each page opens without a complaint, with less than 300 kB before anyone scrolls; the studio is an exception.
+// Each page opens without errors and loads less than 300 kB before scrolling; the studio is an exception.
 {
   const context = await browser.newContext({viewport: {width: 1280, height: 800}, ...blocked});
   let most = 0, heaviest = "";
@@ -127,7 +127,7 @@ nothingWrong();
 const total = files.reduce((sum, file) => sum + statSync(join(site, file)).size, 0);
 assert.ok(total < 60e6, `the site has ${total} bytes`);
 
-// Accessibility and width of a page of each kind, as phones, tablets and desktops show it, by day and by night.
+// Accessibility and width of a page of each kind on phones, tablets and desktops, in light and dark.
 const shown = {
   front: "index.html", manual: "manual/index.html", language: "manual/language.html", commands: "manual/commands.html",
   matrix: "manual/matrix.html", readme: "manual/readme.html", kolam: "pattern/kooja-kolam.html", melody: "pattern/hilbert-kalyani.html",
@@ -165,11 +165,11 @@ console.log(`site: ${Object.keys(shown).length} pages without findings of axe, n
 
 // Everything below is done in both browsers.
 async function use(browser, name) {
-  // Firefox cannot be told to reduce motion, nor to block service workers.
+  // Playwright cannot make Firefox reduce motion or block service workers.
   const context = await browser.newContext({viewport: {width: 1280, height: 800}, ...(name === "Chromium" ? {reducedMotion: "reduce", ...blocked} : {})});
   const page = watch(await context.newPage());
 
-  // The first element that the keyboard reaches skips the navigation.
+  // The first element that the Tab key reaches skips the navigation.
   await page.goto(home + "index.html");
   await page.keyboard.press("Tab");
   assert.equal(await page.evaluate(() => document.activeElement.textContent), "Skip to the content");
@@ -244,13 +244,13 @@ async function use(browser, name) {
   await play.focus();
   await page.keyboard.press("Enter");
   await page.getByRole("button", {name: "Pause"}).waitFor();
-  const silence = "The browser starts no sound here; is there a device for it?";
+  const silence = "The browser cannot play sound; is there an audio device?";
   await page.waitForFunction(text => sikkuPlayer.now() > 2 || sikkuPlayer.clock.textContent === text, silence, {timeout: 60_000});
   // What the player reads is what the program says of the melody.
   const report = Number((await page.locator("dt:text-is('Notes') + dd").textContent()).replace(/,/g, ""));
   assert.equal(await page.evaluate(() => sikkuPlayer.score.notes.length), report, "the notes of the file are those of the report");
   if (name !== "Chromium" && await page.evaluate(() => !sikkuPlayer.playing)) {
-    // Firefox has no clock without a device for sound.
+    // Without an audio device, the audio clock of Firefox does not run.
     await page.evaluate(() => sikkuPlayer.seek(0.5));
     assert.ok(await page.evaluate(() => Math.abs(sikkuPlayer.now() / sikkuPlayer.score.length - 0.5) < 0.001));
     await context.close();
@@ -282,7 +282,7 @@ async function use(browser, name) {
 await use(browser, "Chromium");
 nothingWrong();
 
-// Kept for offline use: the first pages at once, everything else after a click; nothing of it asks another server.
+// Offline use: the first pages are stored at once, all others after a click; no requests go to other servers.
 {
   const context = await browser.newContext({viewport: {width: 1280, height: 800}});
   const page = watch(await context.newPage());
@@ -299,12 +299,12 @@ nothingWrong();
   assert.equal(await page.locator("h1").textContent(), "Tutorial");
   const expected = complaints.length;
   await page.goto(home + "pattern/lilac.html").catch(() => {});
-  assert.equal(await page.locator("h1").textContent(), "Not here yet");
+  assert.equal(await page.locator("h1").textContent(), "Not available offline");
   complaints.length = expected;
   await context.setOffline(false);
   await page.goto(home + "index.html");
   await page.locator("#keep").click();
-  await page.locator("#keep-state").getByText("Everything is here").waitFor({timeout: 300_000});
+  await page.locator("#keep-state").getByText("The site is available offline").waitFor({timeout: 300_000});
   await context.setOffline(true);
   await page.goto(home + "pattern/lilac.html");
   await page.waitForFunction(() => document.querySelector(".plate img").naturalWidth > 0);
@@ -314,7 +314,7 @@ nothingWrong();
   console.log("site: installed, kept, used without a network");
 }
 
-// A pattern whose texts try to be more than texts: shown as they are, and nothing of them runs.
+// A pattern whose texts contain code: they are shown as texts, and the code does not run.
 {
   const {server: second, home} = await serve(resolve(hostile));
   const context = await browser.newContext({viewport: {width: 1280, height: 800}, ...blocked});

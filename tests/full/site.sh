@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The site of packaging/site.sh in Chromium and Firefox: links, weights, widths, accessibility in light and dark, search,
-# player, studio in the page, use without a network; a second build has the same bytes; a hostile pattern stays text.
+# player, studio in the page, offline use; a second build has the same bytes; code in a hostile pattern does not run.
 # usage: tests/full/site.sh PROGRAM [STUDIO_FOLDER] [SCREENSHOTS]
 set -euo pipefail
 [ $# -ge 1 ] || { echo "usage: tests/full/site.sh PROGRAM [STUDIO_FOLDER] [SCREENSHOTS]" >&2; exit 2; }
@@ -16,7 +16,7 @@ if [ ! -f "$studio/sikku-studio.html" ] && [ $# -eq 1 ] && command -v em++ > /de
     "$root/studio/build.sh" > studio.log 2>&1 || { tail -n 60 studio.log; exit 1; }
 fi
 [ -f "$studio/sikku-studio.html" ] || skip "the site in browsers" "$studio has no sikku-studio.html"
-# Newer versions of playwright-core ask Firefox for what Debian's does not know.
+# Newer versions of playwright-core use features that Debian's Firefox does not support.
 npm install --silent --no-audit --no-fund --no-save axe-core@4.14.1 playwright-core@1.60.0 > npm.log 2>&1 ||
     skip "the site in browsers" "npm cannot install axe-core: $(tail -n 1 npm.log)"
 
@@ -24,10 +24,10 @@ started=$(date +%s)
 "$root/packaging/site.sh" x "$program" "$studio"
 echo "site: built in $(($(date +%s) - started)) s"
 
-# A few patterns of each kind, twice from different folders, and one whose texts try to be more than texts.
+# A few patterns of each kind, twice from different folders, and one whose texts contain code.
 few() {
     local folder=$1 name file
-    # Those that the texts link to, and some more.
+    # The patterns that the texts link to, and some others.
     for name in $(grep -oh 'pattern/[a-z0-9-]*\.html' "$root"/packaging/site/text/*.md) anklets-of-krishna hilbert moss-leaf blues \
         simple-leaf penrose-kite-dart; do
         name=${name#pattern/}
@@ -58,7 +58,7 @@ site second --patterns another/folder > /dev/null 2>&1
 diff -r a/site second || { echo "a second build has other bytes"; exit 1; }
 echo "site: two builds have the same bytes"
 
-# Bad input: a message with its place, and nothing is replaced.
+# Bad input: a message names its place, and no file is replaced.
 refused() {
     local expected=$1
     shift

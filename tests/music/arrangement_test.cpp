@@ -374,7 +374,7 @@ TEST(Arrangement, EveryFormatHasTheTempoAndMeterOfSections) {
     EXPECT_TRUE(has(written("strudel"), "~@4 d4 e4 f#4 e4@2 ~@7")) << written("strudel");
 }
 
-/// `1920:2`: the key signatures of the first track; minor ones with an m.
+/// The key signatures of the first track, such as `1920:2`; minor keys have an m.
 std::string signatures(const std::string& midi) {
     std::string text;
     for (const MidiEvent& event : read_midi(midi).events) {

@@ -457,10 +457,10 @@ TEST(MusicPage, NamesTheBeginningsOfPhrases) {
         EXPECT_EQ(phrases(keys), expected) << keys;
         EXPECT_GT(expected.size(), 1u) << keys;
     }
-    // Phrases without rests between them are as many.
+    // Without rests between phrases, their number is the same.
     EXPECT_EQ(phrases("breath: none\n").size(), phrases("").size());
     EXPECT_EQ(phrases("breath: none\nrange: fold\n").front(), 0);
-    // Excerpts have those that begin within them, near the beginning and far from it.
+    // Excerpts contain the phrases that begin within them, near the beginning and far from it.
     const std::vector<std::int64_t> whole = phrases("");
     for (const std::int64_t from : {2, 3, 7, 20, 33}) {
         const std::int64_t begin = (from - 1) * 1920;

@@ -239,7 +239,7 @@ TEST(Notation, EqualRhythmsAreWrittenEqually) {
 }
 
 TEST(Notation, SyncopationsAreWrittenOneWay) {
-    // In three beats wherever they are; dotted ones show the beat.
+    // In three beats at any place; dotted notes show the beat.
     EXPECT_EQ(words({3, 4}, {eighth, 480, 480, eighth}), "8 4 4 8");
     EXPECT_EQ(words({3, 4}, {eighth, 480, 3 * eighth}), "8 4 8~ 4");
     EXPECT_EQ(words({3, 4}, {3 * eighth, 3 * eighth}), "4. 8~ 4");
@@ -253,7 +253,7 @@ TEST(Notation, SyncopationsAreWrittenOneWay) {
     EXPECT_EQ(words({4, 4}, {eighth, 480, 480, 480, eighth}), "8 4 8~ 8 4 8");
     EXPECT_EQ(words({7, 4, {3, 2, 2}}, {eighth, 480, 480, eighth, eighth, 480, eighth, eighth, 480, eighth}),
               "8 4 4 8 8 4 8 8 4 8");
-    // Six quarters are twice three.
+    // Six quarters are two groups of three.
     EXPECT_EQ(words({6, 4}, {eighth, 480, 480, eighth, eighth, 480, 480, eighth}), "8 4 4 8 8 4 4 8");
     EXPECT_EQ(words({5, 4}, {eighth, 480, 480, 480, 480, eighth}), "8 4 4 4 4 8");
     EXPECT_EQ(words({8, 4}, {eighth, 480, 480, 480, eighth, 1920}), "8 4 8~ 8 4 8 1");

@@ -1,5 +1,5 @@
-// tests/music/repeats_test.cpp: repeat signs: passages found by a second algorithm, and what is read between the
-// signs.
+// tests/music/repeats_test.cpp: repeat signs: compares the passages with those of a second algorithm, and the notes
+// that are read from sign to sign.
 #include "music/score/repeats.h"
 
 #include "music/score/dynamics.h"
@@ -135,7 +135,7 @@ bool are_equal(const ComparedBars& bars, std::size_t a, std::size_t b, std::size
 
 bool is_possible(const ComparedBars& bars, const RepeatedBars& one) {
     if (bars.is_open[one.end()]) {
-        // Only a second ending that differs may lead on.
+        // A note can be held over the end only if the second ending differs.
         const std::size_t last = one.end() - one.count;
         if (one.ending == 0 || are_equal(bars, one.first, last, one.count)) return false;
     }
@@ -372,7 +372,7 @@ void expect_one_meaning(const Notation& notation, const NotatedPart& part, const
     }
 }
 
-/// No slur, hairpin or line of 8va crosses a sign, and clefs are those that were read last.
+/// No slur, hairpin or 8va line crosses a sign, and each clef is the one that was read last.
 void expect_clean_borders(const Notation& notation, const Staff& staff) {
     for (const std::int64_t border : jumps_of(notation.repeats)) {
         for (const NotatedVoice& voice : staff.voices) {
@@ -568,7 +568,7 @@ TEST(Repeats, ArePrintedOnlyOnRequestAndElsewhereReported) {
         EXPECT_FALSE(has(remarks_of(remarks_about(scores(), document, format)), "printed as"));
         EXPECT_EQ(warnings_of(remarks_about(scores(), parse("h.lsys", text + "canon: 1 -12\n"), format,
                                             {{"repeats", "true"}})),
-                  "'repeats' has no effect: no passage of four bars or more follows itself\n");
+                  "'repeats' has no effect: no passage of four bars or more is played twice in a row\n");
     }
 }
 

@@ -28,7 +28,7 @@ std::string notice(const std::string& method, const Json& parameters = Json::obj
     return message(Json({{"jsonrpc", "2.0"}, {"method", method}, {"params", parameters}}).dump());
 }
 
-/// What the server answers; also its exit status.
+/// The answers of the server, and its exit status.
 struct Conversation {
     std::vector<Json> messages;
     Outcome outcome;
@@ -139,7 +139,7 @@ TEST(Lsp, FollowsChangesAndForgetsClosedDocuments) {
     EXPECT_EQ(closed.outcome.status, 0);
 }
 
-/// The server asks for whole texts; editors that send parts are understood.
+/// The server requests whole texts, but accepts changed parts.
 TEST(Lsp, FollowsChangesOfParts) {
     const auto part = [](const Json& where, const char* text) -> Json { return {{"range", where}, {"text", text}}; };
     const auto changes = [](const Json& list) {
@@ -369,7 +369,7 @@ TEST(Lsp, SaysThatADocumentIsTooLarge) {
     EXPECT_TRUE(has(only.diagnostics(address)[0]["message"].get<std::string>(), "too large for an editor"));
 }
 
-/// Documents below the limit that take long are given up.
+/// The server stops reading documents below the limit that take too long.
 TEST(Lsp, TakesBoundedTimeForLargeDocuments) {
     std::string large = "axiom: F\nderivation length: 2\n";
     for (int i = 0; large.size() < 4'000'000; ++i) {

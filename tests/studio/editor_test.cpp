@@ -1,4 +1,4 @@
-// tests/studio/editor_test.cpp: what editors do with the text of patterns.
+// tests/studio/editor_test.cpp: help, formatting and renaming in the text of patterns.
 #include "art/prints.h"
 #include "engine/base/text.h"
 #include "engine/check.h"
@@ -114,7 +114,7 @@ TEST(EditorFormat, SpacesLines) {
         {"// comment:x  \naxiom:F /* a : b */\n", "// comment:x\naxiom: F /* a : b */\n"},
         {"axiom: F\nF /* here */ --> G\n", "axiom: F\nF /* here */ --> G\n"},
         {"axiom:F \\\n    +F\nF-->G\n", "axiom: F \\\n    +F\nF --> G\n"},
-        {"axiom: F\nF --> F \\ \n", "axiom: F\nF --> F \\ \n"},  // without its last blank it would go on
+        {"axiom: F\nF --> F \\ \n", "axiom: F\nF --> F \\ \n"},  // without its last blank, the line would continue
         {"axiom: F\nF --> F \\", "axiom: F\nF --> F \\"},
         {"axiom:F\r\nF-->G  \r\n", "axiom: F\r\nF --> G\r\n"},
         {"\n\n  axiom:F\n\n\n", "\n\n  axiom: F\n\n\n"},
@@ -234,7 +234,7 @@ TEST(EditorRename, RenamesEveryPlaceAndRefusesOtherMeanings) {
     EXPECT_TRUE(has(renamed(curve, "F", "H"), "would change"));
     EXPECT_TRUE(has(renamed(curve, "axiom", "H"), "a key cannot be renamed"));
     EXPECT_TRUE(has(renamed("axiom: X\nX --> (\n", "X", "Z"), "the pattern has errors: line 2"));
-    EXPECT_TRUE(has(renamed("axiom: A\nnamed notes: yes\nmapping: symbols\n", "A", "B"), "sound the notes"));
+    EXPECT_TRUE(has(renamed("axiom: A\nnamed notes: yes\nmapping: symbols\n", "A", "B"), "named notes"));
     EXPECT_EQ(renamed("axiom: X\nforward: X\nX --> XX\n", "X", "Z"), "axiom: Z\nforward: Z\nZ --> ZZ\n");
     EXPECT_EQ(renamed("axiom: X\nnote X: C4\n", "X", "Z"), "axiom: Z\nnote Z: C4\n");
     EXPECT_EQ(renamed("define a = 1\ndefine b = a\naxiom: F(b)\n", "a", "size", 7),
@@ -276,7 +276,7 @@ TEST(EditorRename, ExchangesLettersOfEveryWord) {
         try {
             after = with_edits(text, renaming(pattern, all, *found, "Q"));
         } catch (const RenameError& error) {
-            EXPECT_TRUE(has(error.what(), "already in use") || has(error.what(), "sound the notes"))
+            EXPECT_TRUE(has(error.what(), "already in use") || has(error.what(), "named notes"))
                 << file << error.what();
             continue;
         }

@@ -60,7 +60,7 @@ private:
     Json result_;
 };
 
-/// Applies a change as a careless writer makes it. Characters stay whole.
+/// Applies a random careless change that keeps characters complete.
 std::string damaged(std::string text, std::mt19937& random) {
     static const std::vector<std::string> pieces = {"(",
                                                     ")",

@@ -1,4 +1,4 @@
-// Bundles the extension into dist/extension.js, and writes the licences of what it contains into dist/NOTICES.txt.
+// Bundles the extension into dist/extension.js, and writes the licences of its packages into dist/NOTICES.txt.
 import {build} from "esbuild";
 import {readdirSync, readFileSync, writeFileSync} from "node:fs";
 

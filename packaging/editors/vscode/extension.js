@@ -15,7 +15,7 @@ exports.activate = async () => {
     } catch (error) {
         client = undefined;
         window.showErrorMessage(
-            `Sikku could not be started as '${command}': ${error.message}. Install it, or set 'sikku.program' to its path.`,
+            `Cannot start '${command}': ${error.message}. Install it, or set 'sikku.program' to its path.`,
         );
     }
 };

@@ -80,7 +80,7 @@ function readMidi(buffer) {
     return {notes, length: time};
 }
 
-// Families of General MIDI instruments: overtones, seconds until a held note has faded, and of the attack.
+// Families of General MIDI instruments: overtones, seconds until a held note has faded, seconds of the attack.
 function timbre(program) {
     if (program < 8) return {overtones: [0, 1, 0.5, 0.24, 0.12, 0.06], fade: 1.6, attack: 0.004};
     if (program < 16) return {overtones: [0, 1, 0, 0, 0.35, 0, 0, 0, 0, 0.1], fade: 0.9, attack: 0.002};
@@ -95,8 +95,8 @@ function timbre(program) {
     return {overtones: [0, 1, 0.7, 0.55, 0.45, 0.3, 0.25, 0.2, 0.1], fade: 1, attack: 0.003};
 }
 
-const patience = 3000; // milliseconds that a browser may take to begin with sound
-const ahead = 0.3; // seconds of notes that are given to the sound in advance
+const patience = 3000; // milliseconds that a browser may take to start sound
+const ahead = 0.3; // seconds by which notes are scheduled in advance
 
 class Player {
     constructor(element) {
@@ -181,7 +181,7 @@ class Player {
         }
         if (this.context.currentTime === this.silent && performance.now() - this.asked > patience) {
             this.pause();
-            this.clock.textContent = "The browser starts no sound here; is there a device for it?";
+            this.clock.textContent = "The browser cannot play sound; is there an audio device?";
             return;
         }
         if (this.now() >= length) {

@@ -1,4 +1,4 @@
-// What all pages share: copying commands, filtering galleries, opening the studio in the page, working offline.
+// Code that all pages share: copying commands, filtering galleries, opening the studio in the page, working offline.
 "use strict";
 
 const root = new URL("../", document.currentScript.src);
@@ -32,7 +32,7 @@ if (filter) {
     show();
 }
 
-// The studio is too large to be loaded before anyone asks for it; on small screens it takes a page of its own.
+// The studio is large, so it is loaded only on a click; on small screens it opens in a page of its own.
 for (const link of document.querySelectorAll("a[data-studio]")) {
     link.addEventListener("click", event => {
         if (event.ctrlKey || event.metaKey || event.shiftKey || innerWidth < 760) return;
@@ -61,7 +61,7 @@ if ("serviceWorker" in navigator && isSecureContext && location.protocol.startsW
             if (data.kept === undefined) return;
             state.textContent = data.failed
                 ? `${data.failed} files could not be loaded.`
-                : data.kept < data.all ? `${data.kept} of ${data.all} files` : "Everything is here, also without a network.";
+                : data.kept < data.all ? `${data.kept} of ${data.all} files` : "The site is available offline.";
             keep.disabled = data.kept < data.all && !data.failed;
         });
         keep.addEventListener("click", async () => {

@@ -1,5 +1,5 @@
-// Keeps the site for use without a network: what the first pages need when it is installed, everything else when it is
-// seen, and all of it when asked. The network comes first, so that no page is older than the site.
+// Stores the site for offline use: the files of the first pages when it is installed, other files when they are opened,
+// and all files on request. The network has precedence, so that no page is older than the site.
 "use strict";
 
 const version = "{{version}}";
@@ -20,7 +20,7 @@ self.addEventListener("activate", event => {
     })());
 });
 
-// A file of the site as it is stored: without a query, folders as their index.
+// The address under which a file is stored: without a query; a folder is its index.
 function stored(url) {
     const address = new URL(url);
     address.search = address.hash = "";
