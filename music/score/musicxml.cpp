@@ -373,7 +373,7 @@ private:
         put("</direction>\n");
     }
 
-    /// Writes clefs, lines of 8va and dynamics that begin before `end`.
+    /// Writes clefs, 8va lines and dynamics that begin before `end`.
     void write_changes(StaffState& state, std::int64_t end, const XmlPart& part) {
         const Staff& staff = *state.staff;
         for (; state.change < staff.changes.size() && staff.changes[state.change].onset < end; ++state.change) {

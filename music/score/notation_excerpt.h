@@ -8,7 +8,7 @@
 namespace sikku {
 
 /// Keeps what begins between two bar lines, counted from the first. Ties, slides and hairpins end at the cuts; the
-/// key, the clefs, lines of 8va and dynamics in force apply from the first on. Beams and accents stay as they are.
+/// key, the clefs, 8va lines and dynamics in force apply from the first on. Beams and accents stay as they are.
 /// Second voices of a staff that are silent there are left out.
 void cut_bars(NotatedPart& part, std::int64_t from, std::int64_t to);
 

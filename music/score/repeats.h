@@ -18,7 +18,7 @@ struct ComparedBars {
     std::vector<bool> is_open;            ///< of each bar line, the last included: a note or a slide crosses it
 };
 
-/// Bars that are played several times in a row: a passage that is the same each time, or the same but for its end.
+/// Bars that are played several times in a row: a passage that is the same each time, or differs only at its end.
 struct RepeatedBars {
     std::size_t first = 0;
     std::size_t count = 0;   ///< bars of the passage
@@ -33,8 +33,8 @@ struct RepeatedBars {
 constexpr std::size_t fewest_repeated_bars = 4;
 constexpr std::size_t most_times_repeated = 4;  ///< more are hard to count while playing
 
-/// Finds the passages to print once: at least four bars, played two to `most_times` times, equal but for at most the
-/// last quarter the last time. No note crosses their bar lines, except the one after a second ending, and nothing
+/// Finds the passages to print once: at least four bars, played two to `most_times` times; the last time, at most the
+/// last quarter differs. No note crosses their bar lines, except the one after a second ending, and nothing
 /// changes within. Those that save the most bars come first; of equal ones, the longer passage, then one that begins
 /// with a bar that sounds, then the earlier one. The bars left before and after a passage are searched in the same
 /// way; passages are not nested. Cost: about O(bars log^2 bars). Memory: O(bars log bars).

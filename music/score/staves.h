@@ -1,4 +1,4 @@
-// music/score/staves.h: distributes the voices of a part over staves, and chooses clefs and lines of 8va.
+// music/score/staves.h: distributes the voices of a part over staves, and chooses clefs and 8va lines.
 #pragma once
 
 #include "music/score/notation.h"
@@ -44,7 +44,7 @@ bool is_keyboard(int program);
 PartPlan plan_staves(const Part& part, std::span<const std::vector<Note>> voices, int first_voice,
                      const BarLines& bars);
 
-/// Chooses clefs and lines of 8va for a staff so that ledger lines, changes and notes under 8va are fewest;
+/// Chooses clefs and 8va lines for a staff so that ledger lines, changes and notes under 8va are fewest;
 /// phrases and bars are the best places for changes. Only times at which every voice begins a symbol and none ties
 /// one are used. Cost: O(notes).
 std::vector<StaffChange> choose_clefs(const Part& part, std::optional<Clef> only,

@@ -19,7 +19,7 @@ THUMBNAIL_SVG_BYTES = 7_000  # larger ones are shown as pixels in galleries
 THUMBNAIL_BYTES = 14_000
 THUMBNAIL_PIXELS = 320
 GROWTH_BYTES = 9_000
-DOWNLOAD_BYTES = 2_100_000  # what is larger is not stored; its page says how to make it
+DOWNLOAD_BYTES = 2_100_000  # larger files are not stored; the page shows the command that makes them
 SECONDS = 120
 
 # The kinds whose patterns have melodies; patterns of other kinds have one if they set keys of melodies.

@@ -284,7 +284,7 @@ def pattern_page(pattern: Pattern, made: Made, group: list[Pattern], context: Co
     plate = ""
     if made.picture and not pattern.is_arrangement:
         plate = f'<figure class="plate">{image(context, path, made.picture, title, lazy=False)}</figure>'
-    # Short productions stand beside the picture.
+    # Short productions are printed beside the picture.
     is_short = bool(plate) and is_brief(pattern)
     head = (
         f'<div class="head"><p class="crumbs"><a href="../patterns/{pattern.kind}.html">{escaped(kind)}</a></p>'
@@ -473,7 +473,7 @@ browser and sends no data; opening it loads about 2 MB.</p>
 <img src="assets/studio.png" width="{width}" height="{height}" loading="lazy"
 alt="Open the studio here: the text of a pattern on the left, its picture in the middle"></a></div>
 {choices}
-<p><a href="studio/index.html">Open the studio in a page of its own</a></p></section>
+<p><a href="studio/index.html">Open the studio in a separate page</a></p></section>
 <section class="split top-aligned" aria-labelledby="install"><div><h2 id="install">Two commands to a first print</h2>
 <p>Install the program, and draw a kolam as a PDF of size A3. Packages for Debian 12, other Linux systems, Python and
 Node.js are listed in <a href="manual/readme.html#install">Install</a>.</p></div>

@@ -84,7 +84,7 @@ const blocked = {serviceWorkers: "block"};
         inline: document.querySelectorAll("script:not([src]), style, [style], [onclick], [onload], [onerror]").length,
       };
     }, [text, home + html]);
-    assert.equal(found.inline, 0, `${html} has scripts or styles of its own`);
+    assert.equal(found.inline, 0, `${html} has inline scripts or styles`);
     anchors.set(html, new Set(found.ids));
     links.push(...found.links.map(link => [html, link]));
   }
@@ -246,7 +246,7 @@ async function use(browser, name) {
   await page.getByRole("button", {name: "Pause"}).waitFor();
   const silence = "The browser cannot play sound; is there an audio device?";
   await page.waitForFunction(text => sikkuPlayer.now() > 2 || sikkuPlayer.clock.textContent === text, silence, {timeout: 60_000});
-  // What the player reads is what the program says of the melody.
+  // The player reads the melody that the program reports.
   const report = Number((await page.locator("dt:text-is('Notes') + dd").textContent()).replace(/,/g, ""));
   assert.equal(await page.evaluate(() => sikkuPlayer.score.notes.length), report, "the notes of the file are those of the report");
   if (name !== "Chromium" && await page.evaluate(() => !sikkuPlayer.playing)) {
@@ -354,5 +354,5 @@ if (existsSync("/usr/bin/firefox-esr") || process.env.FIREFOX) {
 }
 
 nothingWrong();
-assert.ok(!asked.some(path => !path.startsWith(base) && path !== "/favicon.ico"), "a page asks for what lies beside the site");
+assert.ok(!asked.some(path => !path.startsWith(base) && path !== "/favicon.ico"), "a page requests files outside the site");
 server.close();

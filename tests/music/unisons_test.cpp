@@ -195,7 +195,7 @@ TEST(Unisons, DrumsOfAnExcerptAreAsLoudAsInTheWhole) {
                                   {6, 1, 110},
                                   {7, 2, 60},
                                   {9, 3, 110}}));
-    // The remainder of the stroke at 3 gives way to the one at 4; the stroke at 7 continues, though its own note
+    // The stroke at 4 ends the remainder of the stroke at 3; the stroke at 7 continues, though its own note
     // ends.
     EXPECT_EQ(struck({{"from-bar", "2"}, {"bars", "1"}}), (Struck{{0, 1, 60}, {1, 1, 60}, {2, 1, 110}, {3, 1, 60}}));
     EXPECT_EQ(struck({{"from-bar", "3"}}), (Struck{{0, 1, 60}, {1, 3, 110}}));

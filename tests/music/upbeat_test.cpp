@@ -229,7 +229,7 @@ TEST(Upbeat, SectionsHaveTheirLengthsWithoutIt) {
     const auto track = [](const std::string& keys) { return "[[track]]\npattern = \"a\"\n" + keys; };
     const std::string upbeat = "upbeat = \"1/4\"\n";
     struct Case {
-        std::string form, first, second, third;  // keys of three tracks besides the upbeats
+        std::string form, first, second, third;  // keys of three tracks, without the upbeats
         int with_upbeat;                         // bits of the tracks that have an upbeat
         std::int64_t opening;                    // ticks before the first bar line
     };

@@ -324,7 +324,7 @@ TEST(Lsp, RefusesWhatIsNotAMessage) {
         const Conversation talk = converse(message(text) + start + end);
         ASSERT_FALSE(talk.messages.empty());
         EXPECT_LT(talk.messages.front()["error"]["code"], -32000) << text;
-        EXPECT_EQ(talk.outcome.status, 0) << text << ": it goes on";
+        EXPECT_EQ(talk.outcome.status, 0) << text << ": the server does not end";
     }
     for (const char* parameters : {"null", "[]", "3", "{\"textDocument\": 3}", "{\"textDocument\": {\"uri\": 3}}",
                                    "{\"textDocument\": {\"uri\": \"x\"}}", "{\"textDocument\": {\"text\": \"\"}}"}) {

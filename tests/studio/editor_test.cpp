@@ -180,7 +180,7 @@ const std::string sample =
     "axiom: A(k) bud ~leaf\ntable one:\nA(x) : x > k --> F(x)[+A(x-1)]\ntable two:\nbud --> bud F\n"
     "A(k) --> F(k)\nschedule: one*(n-k) two*1\nvariant v: k = 3\npatch leaf:\n0 0 0  1 0 0  2 0 0  3 0 0\n";
 
-/// Occurrences of what stands at the first place of `text` in the sample, as `line:column` from 1.
+/// Occurrences of the name at the first place of `text` in the sample, as `line:column` from 1.
 std::vector<std::string> places_of(const std::string& text, std::size_t skip = 0) {
     const Pattern pattern = pattern_of(sample);
     const auto all = occurrences(pattern);

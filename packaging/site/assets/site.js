@@ -32,7 +32,7 @@ if (filter) {
     show();
 }
 
-// The studio is large, so it is loaded only on a click; on small screens it opens in a page of its own.
+// The studio is large, so it is loaded only on a click; on small screens it opens in a separate page.
 for (const link of document.querySelectorAll("a[data-studio]")) {
     link.addEventListener("click", event => {
         if (event.ctrlKey || event.metaKey || event.shiftKey || innerWidth < 760) return;
