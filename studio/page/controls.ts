@@ -1,10 +1,11 @@
 // The values of the pattern as sliders: n with its cost, defines, angle, stroke, colours, seed. Changed values are kept
 // separately from the text, like `--set` and `-n` of the program.
+import { angleAt, degreesOf, readAngle, type Angle } from "./angles";
 import type { Application } from "./application";
 import { joinedStroke, makeColours, splitStroke } from "./colours";
 import { button, byId, element } from "./elements";
 import { count, counted, rounded, span } from "./numbers_shown";
-import { optionOf } from "./options";
+import { optionOf, withOption } from "./options";
 import { valueInText, withSettings } from "./pattern_text";
 import type { Opened } from "./protocol";
 import { makeSeed } from "./seed";
@@ -88,7 +89,10 @@ export class Controls {
             );
         }
         this.variant.value = pattern.variant;
-        const angle = facts.keys.some((key) => key.name === "angle factor") ? "angle factor" : "angle increment";
+        // A slider that has left the fractions of a circle sets `angle increment` instead of the text's `angle factor`.
+        const hasFactor =
+            valueInText(pattern, "angle factor") !== null || facts.keys.some((key) => key.name === "angle factor");
+        const angle = hasFactor ? "angle factor" : "angle increment";
         const more = further_keys.filter((name) => facts.keys.some((key) => key.name === name));
         this.angleLabel = facts.defines.some((each) => each.name === "angle") ? angle : "angle";
         const names = [
@@ -175,25 +179,43 @@ export class Controls {
         };
     }
 
+    // Turns continuously: fractions of a circle stay an exact `angle factor`, other angles are an `angle increment`.
     private factorRow(): Row {
-        const name = "angle factor";
+        const base = () => Number(this.value("angle factor", "4").base);
+        const set = (angle: Angle | null, merges: boolean) => {
+            const { store } = this.application;
+            const { pattern } = store.work;
+            const isBase = angle?.key === "angle factor" && Number(angle.value) === base();
+            let settings = withOption(withOption(pattern.settings, "angle factor", null), "angle increment", null);
+            if (angle && !isBase) settings = withOption(settings, angle.key, angle.value);
+            store.change({ pattern: { ...pattern, settings } }, merges ? "setting angle" : undefined);
+        };
         const slider = makeSlider(this.angleLabel, {
-            ...this.acts(name, String),
-            type: (value) => this.change(name, value.replace(/^360\s*\/\s*/, "")),
+            slide: (number) => set(angleAt(number, base()), true),
+            type: (value) => {
+                const angle = value === "" ? null : readAngle(value);
+                // The libraries say what is wrong with other texts.
+                set(value === "" || angle ? angle : { key: "angle factor", value }, false);
+            },
+            reset: () => set(null, false),
+            explain: () => this.explain("angle factor"),
         });
         return {
             slider,
             update: () => {
-                const { now, base, isChanged } = this.value(name, "4");
-                const most = Math.max(24, Number(base) * 2, Number(now));
+                const { settings } = this.application.store.work.pattern;
+                const free = optionOf(settings, "angle increment");
+                const { now, isChanged } = this.value("angle factor", "4");
+                const angle: Angle = free === undefined ? { key: "angle factor", value: now } : { key: "angle increment", value: free };
+                const degrees = degreesOf(angle);
                 slider.set({
-                    value: `360/${now}`,
-                    number: Number(now),
-                    least: 1,
-                    most,
+                    value: free === undefined ? `360/${now}` : `${free}°`,
+                    number: degrees,
+                    least: 0,
+                    most: Math.max(180, degrees),
                     step: 1,
-                    isChanged,
-                    description: `${rounded(360 / Number(now), 0.01)} degrees`,
+                    isChanged: isChanged || free !== undefined,
+                    description: `${rounded(degrees, 0.01)} degrees`,
                 });
             },
         };

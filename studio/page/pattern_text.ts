@@ -44,6 +44,11 @@ export function valueInText(pattern: PatternRequest, name: string): string | nul
 export function withSettings(pattern: PatternRequest): string {
     let { text } = pattern;
     for (const [name, value] of pattern.settings ?? []) {
+        // A pattern has one of the two.
+        const other = { "angle increment": "angle factor", "angle factor": "angle increment" }[name];
+        if (other && !new RegExp(`^${startOf(name)}`, "mu").test(text)) {
+            text = text.replace(new RegExp(`^([ \\t]*)${escaped(other)}(?=[ \\t]*:)`, "mu"), (_, space: string) => space + name);
+        }
         const line = new RegExp(`^(${startOf(name)}[ \\t]*)(.*)$`, "mu");
         if (line.test(text)) text = text.replace(line, (_, start: string) => start + value);
         else text = `${withoutLastBreaks(text)}\n${name}: ${value}\n`;

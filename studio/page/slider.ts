@@ -46,6 +46,7 @@ export function makeSlider(
         autocomplete: "off",
     });
     const reset = button(`Reset ${label}`, acts.reset, { kind: "quiet", icon: reset_icon });
+    let shown = ""; // the value last set
     const row = element("div", { class: "slider" }, name, range, field, reset);
 
     name.addEventListener("pointerenter", () => {
@@ -78,8 +79,10 @@ export function makeSlider(
             range.max = String(most);
             range.step = String(state.step);
             slideTo(range, number, state.description ?? state.value);
-            if (document.activeElement !== field || field.value === "") field.value = state.value;
-            else if (Number(field.value) !== Number(state.value)) field.value = state.value;
+            // A late answer does not overwrite what is being typed.
+            const isTyping = document.activeElement === field && field.value !== "";
+            if (!isTyping || (state.value !== shown && Number(field.value) !== Number(state.value))) field.value = state.value;
+            shown = state.value;
             row.classList.toggle("changed", state.isChanged);
             reset.style.visibility = state.isChanged ? "visible" : "hidden";
         },
