@@ -20,6 +20,7 @@ import {
 } from "@codemirror/view";
 import type { Application } from "./application";
 import { colour_swatches } from "./colour_swatches";
+import { correctedLine } from "./corrections";
 import { button, byId, element } from "./elements";
 import { completePattern, cursorHelp, hoverHelp } from "./help_in_text";
 import { counted } from "./numbers_shown";
@@ -67,26 +68,54 @@ const lit = decorated(light, (doc, place) => {
     return to > from ? [production, Decoration.mark({ class: "lit" }).range(from, to)] : [production];
 });
 
-// Messages below their lines, shown when typing pauses so that the text does not jump.
+// Messages below their lines, shown when typing pauses so that the text does not jump. A button makes the correction
+// that the message names.
 class Message extends WidgetType {
     constructor(
         private readonly text: string,
         private readonly isWarning: boolean,
+        private readonly line: number,
     ) {
         super();
     }
     override eq(other: Message): boolean {
-        return other.text === this.text && other.isWarning === this.isWarning;
+        return other.text === this.text && other.isWarning === this.isWarning && other.line === this.line;
     }
-    toDOM(): HTMLElement {
-        return element("div", { class: `line-message ${this.isWarning ? "warning" : "error"}` }, this.text);
+    toDOM(view: EditorView): HTMLElement {
+        const shown = element("div", { class: `line-message ${this.isWarning ? "warning" : "error"}` }, this.text);
+        const { line } = this;
+        if (line <= view.state.doc.lines && correctedLine(view.state.doc.line(line).text, this.text) !== null) {
+            shown.append(button("Correct it", () => correct(view, [{ line, message: this.text }]), { kind: "correction" }));
+        }
+        return shown;
     }
+    override ignoreEvent(): boolean {
+        return true; // the button acts on its own
+    }
+}
+
+const correction = "input.correction";
+
+// Makes corrections that messages name; the last first, because one line may become several.
+function correct(view: EditorView, faults: { line: number; message: string }[]): void {
+    const { doc } = view.state;
+    const seen = new Set<number>();
+    const changes = faults.flatMap(({ line, message }) => {
+        if (line < 1 || line > doc.lines || seen.has(line)) return [];
+        const { from, to, text } = doc.line(line);
+        const insert = correctedLine(text, message);
+        if (insert === null) return [];
+        seen.add(line);
+        return [{ from, to, insert }];
+    });
+    if (changes.length > 0) view.dispatch({ changes, userEvent: correction });
+    view.focus();
 }
 
 const show_messages = StateEffect.define<Diagnostic[]>();
 const messages = decorated(show_messages, (doc, diagnostics) =>
     diagnostics.filter(({ line }) => line >= 1 && line <= doc.lines).map(({ line, message, warning }) => {
-        const widget = new Message(message, warning);
+        const widget = new Message(message, warning, line);
         return Decoration.widget({ widget, block: true, side: 1 }).range(doc.line(line).to);
     }),
 );
@@ -166,7 +195,9 @@ export class Editor {
                 const edited = { ...pattern, text: update.state.doc.toString() };
                 // Values belong to the pattern that they were set for.
                 if (isAnother(edited, pattern)) Object.assign(edited, { variant: "", settings: [] });
-                store.change({ pattern: edited }, "text");
+                // A correction is undone alone.
+                const isTyped = !update.transactions.some((each) => each.isUserEvent(correction));
+                store.change({ pattern: edited }, isTyped ? "text" : "");
             }),
         ];
     }
@@ -232,6 +263,14 @@ export class Editor {
         const where = first ? `Line ${first.line}: ` : errors[0]?.setting ? `${errors[0].setting}: ` : "";
         const more = errors.length > 1 ? ` (and ${errors.length - 1} more)` : "";
         this.strip.append(element("span", {}, where + message + more));
+        const { doc } = this.view.state;
+        const correctable = errors.filter(
+            (each) => each.line > 0 && each.line <= doc.lines && correctedLine(doc.line(each.line).text, each.message) !== null,
+        );
+        if (correctable.length > 0) {
+            const label = correctable.length === 1 ? "Correct it" : `Correct all ${correctable.length}`;
+            this.strip.append(button(label, () => correct(this.view, correctable), { kind: "quiet" }));
+        }
         if (first) this.strip.append(button("Go to it", () => this.goTo(first), { kind: "quiet" }));
         return where + message + more;
     }
