@@ -19,11 +19,10 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cstring>
 #include <functional>
 #include <limits>
 #include <map>
-#include <span>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -116,18 +115,12 @@ Json answer_help() {
 }
 
 Json answer_make(const Json& request, const Monitor& monitor, std::string& bytes) {
+    if (request.contains("arrangement")) return answer_make_arrangement(request, monitor, bytes);
     const Interpreter& interpreter = interpreter_of(request);
     const std::string format = text_of(request, "format");
     const Assignment assigned = assign(interpreter, document_of(request), options_of(request));
-    MemoryDestination memory;
-    const std::string name = output_name(assigned.document, format);
-    const Made made = interpreter.plan(assigned.document, format, assigned.options)->make(memory, name, monitor);
-    Json outputs = Json::array();
-    for (const auto& [output, content] : memory.outputs()) {
-        outputs.push_back({{"name", output}, {"size", content.size()}});
-        bytes += content;
-    }
-    return {{"outputs", std::move(outputs)}, {"remarks", json_of(made.remarks)}};
+    const std::unique_ptr<Work> work = interpreter.plan(assigned.document, format, assigned.options);
+    return made_by(*work, output_name(assigned.document, format), monitor, bytes);
 }
 
 /// The text of the word or the map, cut off at the limit of a link.
@@ -179,54 +172,10 @@ Json answer_check(const Json& request, const Monitor& monitor) {
              json_of(check_pattern(text_of(pattern, "name"), text_of(pattern, "text"), interpreters, monitor))}};
 }
 
-template <typename Number>
-void append_double(std::string& bytes, Number number) {
-    const auto value = static_cast<double>(number);
-    std::array<char, sizeof value> raw;
-    std::memcpy(raw.data(), &value, sizeof value);
-    bytes.append(raw.data(), raw.size());
-}
-
-Json answer_notes(const Json& request, const Monitor& monitor, std::string& bytes) {
-    const Assignment assigned = assign(scores(), document_of(request), options_of(request));
-    const NoteList list = list_notes(std::span(&assigned.document, 1), assigned.options, monitor);
-    for (const Note& note : list.notes) {
-        append_double(bytes, note.onset);
-        append_double(bytes, note.duration);
-        append_double(bytes, note.key);
-        append_double(bytes, note.velocity);
-        append_double(bytes, note.voice);
-        append_double(bytes, note.from.x);
-        append_double(bytes, note.from.y);
-        append_double(bytes, note.to.x);
-        append_double(bytes, note.to.y);
-        append_double(bytes, note.symbol == 0 ? -1 : static_cast<double>(note.symbol));
-    }
-    std::size_t glides = 0;
-    for (std::size_t i = 0; i < list.notes.size(); ++i) {
-        const Glide& glide = list.notes[i].glide;
-        if (glide.semitones == 0) continue;
-        append_double(bytes, i);
-        append_double(bytes, glide.ticks);
-        append_double(bytes, glide.semitones);
-        ++glides;
-    }
-    Json parts = Json::array();
-    for (const Part& part : list.parts) {
-        parts.push_back({{"name", part.name},
-                         {"scale", part.scale},
-                         {"program", part.program},
-                         {"voices", part.voices},
-                         {"drums", part.is_drums}});
-    }
-    return {{"count", list.notes.size()}, {"glides", glides},          {"end", list.end},
-            {"tempo", list.tempo},        {"beats", list.meter.beats}, {"unit", list.meter.unit},
-            {"ticks", ticks_per_quarter}, {"parts", std::move(parts)}};
-}
-
 Json answer(const Json& request, const std::string& file, const Monitor& monitor, std::string& bytes) {
     const std::string what = text_of(request, "do");
     if (what == "patterns") return answer_patterns();
+    if (what == "arrangements") return answer_arrangements();
     if (what == "help") return answer_help();
     if (what == "open") return answer_open(request, monitor);
     if (what == "make") return answer_make(request, monitor, bytes);

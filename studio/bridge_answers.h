@@ -19,6 +19,9 @@ Document document_of(const Json& request);
 /// Names an output: `curve.svg` for curve.lsys.
 std::string output_name(const Document& document, const std::string& format);
 
+/// Makes a work in memory: its outputs, one after the other, are appended to `bytes`.
+Json made_by(Work& work, const std::string& name, const Monitor& monitor, std::string& bytes);
+
 Json json_of(const std::vector<Remark>& remarks);
 Json json_of(const std::vector<Diagnostic>& diagnostics);
 
@@ -26,6 +29,10 @@ Json json_of(const std::vector<Diagnostic>& diagnostics);
 Json answer_open(const Json& request, const Monitor& monitor);
 Json answer_pixels(const Json& request, const Monitor& monitor, std::string& bytes);
 Json answer_affordable(const Json& request, const Monitor& monitor);
+Json answer_notes(const Json& request, const Monitor& monitor, std::string& bytes);
+Json answer_arrangements();
+/// A score of an arrangement; its patterns are bundled, or in its text.
+Json answer_make_arrangement(const Json& request, const Monitor& monitor, std::string& bytes);
 Json answer_origins(const Json& request, const Monitor& monitor);
 Json answer_import(const Json& request, const std::string& file);
 Json answer_scale(const Json& request, const std::string& file);

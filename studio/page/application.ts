@@ -1,7 +1,7 @@
 // The studio as its panels use it: the libraries, the work, and the facts of the last valid text.
 import { RequestFailed, type CheckedListener, type Engine, type OpenedListener, type Studio, type Work } from "./context";
 import { byId, element } from "./elements";
-import type { Help, Opened, PatternEntry, Place } from "./protocol";
+import type { ArrangementEntry, Help, Opened, PatternEntry, Place } from "./protocol";
 import type { History } from "./store";
 import { isAnother } from "./versions";
 
@@ -9,8 +9,9 @@ const patience = 400; // milliseconds until the status bar shows that the librar
 const fact_seconds = 12; // how long a message stays in the status bar
 
 export class Application implements Studio {
-    help!: Help; // both are set before the first panel is made
+    help!: Help; // these are set before the first panel is made
     patterns!: PatternEntry[];
+    arrangements: ArrangementEntry[] = [];
     opened: { facts: Opened; work: Work } | null = null;
 
     private saying = 0;

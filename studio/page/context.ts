@@ -1,5 +1,8 @@
 // Interfaces shared by the parts of the page: the libraries, the work, and the panels that show it.
-import type { Diagnostic, Failure, Help, Opened, Options, PatternEntry, PatternRequest, Place, Request } from "./protocol";
+import type {
+    ArrangementEntry, ArrangementRequest, Diagnostic, Failure, Help, Opened, Options, PatternEntry, PatternRequest,
+    Place, Request,
+} from "./protocol";
 
 export interface Answer<T> { json: T; bytes: Uint8Array }
 
@@ -48,6 +51,7 @@ export interface Work {
     /// null: the whole page.
     place: { x: string; y: string; scale: number } | null;
     panel: string; // the panel that is open: see Panel.name
+    arrangement?: ArrangementRequest | null; // played instead of the pattern
     locked?: string[]; // settings and defines that variations and random seeds must not change
 }
 
@@ -70,6 +74,7 @@ export interface Studio {
     readonly store: Store;
     readonly help: Help;
     readonly patterns: PatternEntry[];
+    readonly arrangements: ArrangementEntry[];
     /// The facts of the last valid text and the work they belong to; null before the first.
     readonly opened: { facts: Opened; work: Work } | null;
     /// True if the present text has errors.

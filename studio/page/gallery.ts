@@ -1,15 +1,32 @@
-// The bundled patterns, with pictures that are drawn when they scroll into view.
+// The bundled patterns and arrangements, a dozen picked ones first, with pictures that are drawn when they scroll into
+// view.
+import { openArrangement } from "./arrangements";
 import { type MakePanel, RequestFailed, type Studio } from "./context";
 import { button, choices, element } from "./elements";
 import { given_kind, openGiven } from "./given";
 import { askForFile } from "./open_file";
 import { openPattern } from "./opening";
+import { kindName, kinds as usualKinds, picked } from "./picked";
 import { drawInto } from "./pictures";
-import type { Options, PatternEntry } from "./protocol";
+import type { ArrangementEntry, Options, PatternEntry } from "./protocol";
 
 const picture_size = 256; // pixels
 const square_page: Options = [["size", "120x120mm"], ["margin", "6mm"]];
 
+// A rank for sorting: kinds in the usual order, the user's own first.
+function rank(kind: string): number {
+    const at = usualKinds.indexOf(kind);
+    return kind === given_kind ? -1 : at < 0 ? usualKinds.length : at;
+}
+
+function captioned(picture: HTMLElement, title: string, facts: string, source: string): HTMLButtonElement {
+    const caption = element("span", { class: "caption" }, element("strong", {}, title), element("small", {}, facts));
+    return element("button", { type: "button", class: "card", title: source }, picture, caption);
+}
+
+const containsAll = (text: string, words: string[]) => words.every((word) => text.toLowerCase().includes(word));
+
+/// A card of a pattern.
 class Card {
     readonly element: HTMLButtonElement;
     readonly canvas = element("canvas", {
@@ -21,16 +38,10 @@ class Card {
         readonly entry: PatternEntry,
         studio: Studio,
     ) {
-        const facts = [entry.kind, entry.is_spatial ? "in space" : "", entry.is_melody ? "music" : ""]
+        const facts = [kindName(entry.kind), entry.is_spatial ? "in space" : "", entry.is_melody ? "music" : ""]
             .filter(Boolean)
             .join(" · ");
-        this.element = element(
-            "button",
-            { type: "button", class: "card", title: entry.source },
-            this.canvas,
-            element("span", { class: "caption" }, element("strong", {}, entry.title || entry.name),
-                element("small", {}, facts)),
-        );
+        this.element = captioned(this.canvas, entry.title || entry.name, facts, entry.source);
         this.element.addEventListener("click", () => {
             if (entry.kind === given_kind && openGiven(studio, entry.name)) return;
             const panel = entry.is_spatial ? "space" : entry.is_melody ? "play" : "map";
@@ -41,8 +52,7 @@ class Card {
     matches(words: string[], kind: string): boolean {
         const { name, title, source, text, is_melody } = this.entry;
         if (kind && kind !== this.entry.kind && !(kind === "music" && is_melody)) return false;
-        const all = `${name} ${title} ${source} ${text}`.toLowerCase();
-        return words.every((word) => all.includes(word));
+        return containsAll(`${name} ${title} ${source} ${text}`, words);
     }
 
     // Shows axiom and productions instead of a picture.
@@ -68,10 +78,49 @@ class Card {
     }
 }
 
+/// A card of an arrangement, which shows the patterns of its parts.
+class ArrangementCard {
+    readonly element: HTMLButtonElement;
+
+    constructor(
+        private readonly entry: ArrangementEntry,
+        studio: Studio,
+    ) {
+        const parts = [...entry.text.matchAll(/^pattern = "(.*)"/gm)].map((each) => each[1]!);
+        const words = element("span", { class: "picture words", "aria-hidden": "true" }, parts.join("\n"));
+        this.element = captioned(words, entry.title, `arrangement · ${entry.parts} parts`, entry.source);
+        this.element.addEventListener("click", () => openArrangement(studio, `${entry.name}.toml`, entry.text));
+    }
+
+    matches(words: string[], kind: string): boolean {
+        const { name, title, source, text } = this.entry;
+        return ["", "arrangements", "music"].includes(kind) && containsAll(`${name} ${title} ${source} ${text}`, words);
+    }
+
+    draw(): void {}
+}
+
+let choose = (_kind: string): void => {};
+
+/// Shows the patterns of a kind in the gallery; "": all.
+export function showKind(kind: string): void {
+    choose(kind);
+}
+
 export const makeGalleryPanel: MakePanel = (studio) => {
-    const cards = studio.patterns.map((entry) => new Card(entry, studio));
-    const byElement = new Map<Element, Card>(cards.map((card) => [card.element, card]));
-    const kinds = [...new Set(studio.patterns.map((entry) => entry.kind))].sort();
+    const patterns = studio.patterns.toSorted((one, other) => rank(one.kind) - rank(other.kind));
+    const cards: (Card | ArrangementCard)[] = patterns.map((entry) => new Card(entry, studio));
+    const from = patterns.findIndex((entry) => rank(entry.kind) > rank("arrangements"));
+    cards.splice(from, 0, ...studio.arrangements.map((entry) => new ArrangementCard(entry, studio)));
+    const first = picked
+        .map((name) => studio.patterns.find((entry) => entry.name === name))
+        .filter((entry) => entry !== undefined)
+        .map((entry) => new Card(entry, studio));
+    const byElement = new Map<Element, Card | ArrangementCard>([...first, ...cards].map((card) => [card.element, card]));
+    const count = cards.length;
+    const kinds = [...new Set([...patterns.map((entry) => entry.kind), "arrangements"])].sort(
+        (one, other) => rank(one) - rank(other),
+    );
     let kind = "";
 
     const search = element("input", {
@@ -79,27 +128,37 @@ export const makeGalleryPanel: MakePanel = (studio) => {
         placeholder: "Search titles, sources and texts",
         "aria-label": "Search patterns",
     });
-    const choose = (chosen: string) => {
+    choose = (chosen: string) => {
+        const label = kindName(chosen) || "all";
+        for (const each of chips.children) each.setAttribute("aria-pressed", String(each.textContent === label));
         kind = chosen;
         filter();
     };
-    const labels = ["", ...kinds].map((each) => [each, each || "all"] as const);
-    const chips = choices({ class: "toolbar", "aria-label": "Kinds" }, labels, choose, "chip");
+    const labels = ["", ...kinds].map((each) => [each, kindName(each) || "all"] as const);
+    const chips = choices({ class: "toolbar", "aria-label": "Kinds" }, labels, (chosen) => choose(chosen), "chip");
     const shown = element("p", { class: "gallery-count", role: "status" });
     const grid = element("div", { class: "cards" }, ...cards.map((card) => card.element));
+    const beginning = element(
+        "section",
+        { class: "gallery-first", "aria-label": "To begin with" },
+        element("h3", {}, "To begin with"),
+        element("div", { class: "cards" }, ...first.map((card) => card.element)),
+        element("h3", {}, "All patterns"),
+    );
     const filter = () => {
         const words = search.value.toLowerCase().split(/\s+/).filter(Boolean);
-        let count = 0;
+        let found = 0;
         for (const card of cards) {
             card.element.hidden = !card.matches(words, kind);
-            if (!card.element.hidden) ++count;
+            if (!card.element.hidden) ++found;
         }
+        beginning.hidden = found !== count;
         shown.textContent =
-            count === cards.length
-                ? `${count} patterns, most of them from the literature`
-                : count === 0
+            found === count
+                ? `${patterns.length} patterns, most of them from the literature, and ${count - patterns.length} arrangements`
+                : found === 0
                   ? "No pattern matches."
-                  : `${count} of ${cards.length} patterns`;
+                  : `${found} of ${count} patterns and arrangements`;
     };
     search.addEventListener("input", filter);
     filter();
@@ -110,7 +169,7 @@ export const makeGalleryPanel: MakePanel = (studio) => {
         },
         { rootMargin: "200px" },
     );
-    for (const card of cards) sight.observe(card.element);
+    for (const card of byElement.keys()) sight.observe(card);
 
     return {
         name: "gallery",
@@ -126,6 +185,7 @@ export const makeGalleryPanel: MakePanel = (studio) => {
                 shown,
                 button("Open a file…", () => askForFile(studio)),
             ),
+            beginning,
             grid,
         ),
         show() {},

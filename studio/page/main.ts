@@ -14,7 +14,7 @@ import { acceptDrops } from "./open_file";
 import panelStyles from "panel-styles";
 import { Panels } from "./panels";
 import { makePlayPanel } from "./play";
-import type { Help, Patterns } from "./protocol";
+import type { Arrangements, Help, Patterns } from "./protocol";
 import { restoreScales } from "./scales";
 import { watchLinks } from "./share";
 import { makeSpacePanel } from "./space";
@@ -64,11 +64,13 @@ async function main(): Promise<void> {
         openGiven(application, given[0].name);
     }
     const opening = application.open();
-    const [patterns, help] = await Promise.all([
+    const [patterns, arrangements, help] = await Promise.all([
         engine.request<Patterns>({ do: "patterns" }),
+        engine.request<Arrangements>({ do: "arrangements" }),
         engine.request<Help>({ do: "help" }),
     ]);
     application.patterns = [...given, ...patterns.json.patterns];
+    application.arrangements = arrangements.json.arrangements;
     application.help = help.json;
     new Panels(application, [
         makeMapPanel,

@@ -1,7 +1,8 @@
-// Files from outside: patterns, collections of Fractint, files of cpfg, scales and key maps, and prints that contain
+// Files from outside: patterns, arrangements, collections of Fractint, files of cpfg, scales and key maps, and prints that contain
 // their pattern.
+import { isArrangement, openArrangement } from "./arrangements";
 import { isPicture, readPhotograph } from "./bench/photograph";
-import { RequestFailed, type Studio } from "./context";
+import { messageOf, RequestFailed, type Studio } from "./context";
 import { openDialog } from "./dialog";
 import { button, byId, element } from "./elements";
 import { bytes as sizeOf } from "./numbers_shown";
@@ -37,11 +38,12 @@ async function openFile(studio: Studio, file: File, all: File[]): Promise<void> 
         const bytes = new Uint8Array(await file.arrayBuffer());
         if (/\.(scl|kbm)$/i.test(file.name)) await openScale(studio, file.name, bytes);
         else if (/\.(l|frm|map)$/i.test(file.name)) await openCollection(studio, file.name, bytes, all);
+        else if (/\.toml$/i.test(file.name)) openTable(studio, file.name, bytes);
         else if (/\.(lsys|txt)$/i.test(file.name)) openText(studio, file.name, bytes);
         else if (isPicture(file)) await openPicture(studio, file, bytes);
         else await openPrint(studio, file.name, bytes);
     } catch (error) {
-        const message = error instanceof RequestFailed ? error.message : String(error);
+        const message = messageOf(error);
         studio.say(message.startsWith(`${file.name}:`) ? message : `${file.name}: ${message}`, "error");
     }
 }
@@ -49,6 +51,12 @@ async function openFile(studio: Studio, file: File, all: File[]): Promise<void> 
 function openText(studio: Studio, name: string, bytes: Uint8Array): void {
     const text = new TextDecoder("utf-8", { fatal: true }).decode(bytes);
     openPattern(studio, { name: name.replace(/\.txt$/i, ".lsys"), text, variant: "", settings: [] });
+}
+
+function openTable(studio: Studio, name: string, bytes: Uint8Array): void {
+    const text = new TextDecoder("utf-8", { fatal: true }).decode(bytes);
+    if (!isArrangement(text)) throw new Error("no arrangement; expected a [[track]] table for each part");
+    openArrangement(studio, name, text);
 }
 
 async function openScale(studio: Studio, name: string, bytes: Uint8Array): Promise<void> {
@@ -62,6 +70,7 @@ async function openScale(studio: Studio, name: string, bytes: Uint8Array): Promi
 
 async function openPrint(studio: Studio, name: string, bytes: Uint8Array): Promise<void> {
     const { json } = await studio.engine.request<Shown>({ do: "show", name }, { bytes });
+    if (isArrangement(json.text)) return openArrangement(studio, name.replace(/\.\w+$/, ".toml"), json.text);
     openPattern(studio, { name: name.replace(/\.\w+$/, ".lsys"), text: json.text, ...valuesOf(json.made) });
 }
 
@@ -144,7 +153,7 @@ export function acceptDrops(studio: Studio): void {
     const veil = element(
         "div",
         { class: "drop-veil", hidden: true, "aria-hidden": "true" },
-        element("p", {}, "Drop a pattern, a Fractint or cpfg file, a scale, a print made by Sikku, or a photograph of a kolam"),
+        element("p", {}, "Drop a pattern, an arrangement, a Fractint or cpfg file, a scale, a print made by Sikku, or a photograph of a kolam"),
     );
     document.body.append(veil);
     const hasFiles = (event: DragEvent) => event.dataTransfer?.types.includes("Files") ?? false;

@@ -6,7 +6,7 @@ import type { PatternRequest } from "./protocol";
 export function openPattern(studio: Studio, opened: PatternRequest, panel = "map", more: Partial<Work> = {}): void {
     const { name, text, variant = "", settings = [] } = opened;
     const pattern = { name, text, variant, settings };
-    studio.store.change({ pattern, draw: [], play: [], place: null, locked: [], ...more });
+    studio.store.change({ pattern, draw: [], play: [], place: null, locked: [], arrangement: null, ...more });
     studio.store.change({ panel });
     studio.say(`Opened ${titleOf(pattern)}. Undo returns to the previous pattern.`);
 }

@@ -1,6 +1,7 @@
 // The melody of the pattern: transport, the curve and the piano roll as they are played, voices, MIDI.
+import { titleOfArrangement } from "./arrangements";
 import type { MakePanel, Panel, Studio, Work } from "./context";
-import { RequestFailed } from "./context";
+import { messageOf, RequestFailed } from "./context";
 import { button, element } from "./elements";
 import { onTheme } from "./layout";
 import { optionOf, withOption } from "./options";
@@ -12,7 +13,7 @@ import { remediesFor, withMovesDrawn } from "./play/remedies";
 import { RollView } from "./play/roll_view";
 import { TransportBar } from "./play/transport_bar";
 import { VoiceList } from "./play/voice_list";
-import type { Made, Notes, Opened } from "./protocol";
+import type { ArrangementRequest, Made, Notes, Opened } from "./protocol";
 import { Refusal } from "./refusal";
 import type { Melody } from "./sound/melody";
 import { barsOf, firstFrom, keyName, placeText, readMelody } from "./sound/melody";
@@ -30,6 +31,9 @@ const most_pointed = 200_000; // notes searched for the one under the pointer
 /// Elements in which the space key has another meaning.
 const own_space =
     "button, a, select, summary, textarea, dialog, [role='tab'], [role='application'], input:not([type='range'])";
+
+// What the view plays, of a work that may be newer than the facts.
+const played = ({ play, arrangement = null }: Work): Pick<Work, "play" | "arrangement"> => ({ play, arrangement });
 
 class PlayPanel implements Panel {
     readonly name = "play";
@@ -56,6 +60,12 @@ class PlayPanel implements Panel {
     private readonly problem = element("div", { class: "note error play-problem", role: "alert", hidden: true });
     private readonly refusal: Refusal;
     private readonly waiting = element("p", { class: "note play-waiting", role: "status", hidden: true });
+    private readonly arranged = element("div", { class: "play-arranged", hidden: true });
+    private readonly tempoNote = element(
+        "p",
+        { class: "play-tempo-note", hidden: true },
+        "Sections have tempos of their own, which files keep; here the first is played throughout.",
+    );
     private readonly curveCanvas = element("canvas", { class: "play-curve-canvas", role: "img" });
     private readonly rollCanvas = element("canvas", { class: "play-roll-canvas", role: "img" });
     private readonly facts = element("p", { class: "play-facts" });
@@ -84,6 +94,7 @@ class PlayPanel implements Panel {
         this.describe("No melody yet.", "the pattern");
         this.build();
         this.listen();
+        this.showArrangement(this.studio.store.work.arrangement ?? null);
         this.player.onChange = () => this.update();
         this.update();
     }
@@ -113,18 +124,23 @@ class PlayPanel implements Panel {
             element("div", { class: "play-roll" }, this.rollCanvas, zoom),
             this.bar.position,
         );
-        this.element.append(this.bar.element, this.problem, this.waiting, element("div", { class: "play-body" }, views, side));
+        this.element.append(this.bar.element, this.arranged, this.problem, this.waiting, element("div", { class: "play-body" }, views, side));
     }
 
     private listen(): void {
         const { studio, curveCanvas } = this;
-        studio.onOpened((facts, work) => this.change(facts, work));
+        studio.onOpened((facts, work) => {
+            if (!work.arrangement) this.change(facts, work);
+        });
         studio.onChecked(() => this.sayWaiting());
         studio.store.subscribe((work, before) => {
-            if (isAnother(work.pattern, before.pattern)) this.forget();
-            if (work.play === before.play) return;
+            const isOther = work.arrangement?.text !== before.arrangement?.text;
+            if (isOther) this.player.stop();
+            if (isOther || (!work.arrangement && isAnother(work.pattern, before.pattern))) this.forget();
+            this.showArrangement(work.arrangement ?? null);
+            if (work.play === before.play && !isOther) return;
             this.applyTempo();
-            if (studio.opened) this.change(studio.opened.facts, { ...studio.opened.work, play: work.play });
+            if (studio.opened) this.change(studio.opened.facts, { ...studio.opened.work, ...played(work) });
         });
         curveCanvas.addEventListener("click", (event) => {
             const tick = this.curve.tickAt(event.offsetX, event.offsetY);
@@ -168,8 +184,8 @@ class PlayPanel implements Panel {
         const isTimed = optionOf(work.play, "seconds") !== undefined;
         const isNumber = Number(optionOf(work.play, "tempo")) > 0;
         const options = isTimed || !isNumber ? work.play : withOption(work.play, "tempo", null);
-        const pattern = this.played(work);
-        const what = JSON.stringify([pattern, options]);
+        const source = this.sourceOf(work);
+        const what = JSON.stringify([source, options]);
         if (what === this.loaded) {
             this.isStale = false;
             return;
@@ -177,8 +193,8 @@ class PlayPanel implements Panel {
         this.wait();
         try {
             const { json, bytes } = await this.studio.engine.request<Notes>(
-                { do: "notes", options, pattern },
-                { key: "notes" },
+                { do: "notes", options, ...source },
+                { key: "notes", seconds: work.arrangement ? 60 : 20 },
             );
             this.loaded = what;
             this.isStale = false;
@@ -241,7 +257,32 @@ class PlayPanel implements Panel {
         return (playsMoves && !isAnother(playsMoves, work.pattern) && withMovesDrawn(work.pattern)) || work.pattern;
     }
 
+    /// What is played: the arrangement, or the pattern.
+    private sourceOf(work: Work): { arrangement: ArrangementRequest } | { pattern: Work["pattern"] } {
+        return work.arrangement ? { arrangement: work.arrangement } : { pattern: this.played(work) };
+    }
+
+    // Says which arrangement is played, and offers to return to the pattern.
+    private showArrangement(arrangement: ArrangementRequest | null): void {
+        this.arranged.hidden = arrangement === null;
+        if (!arrangement) return;
+        const back = button("Play the pattern instead", () =>
+            this.studio.store.change({ arrangement: null, play: [] }),
+        );
+        this.arranged.replaceChildren(
+            element("p", {}, "Arrangement: ", element("strong", {}, titleOfArrangement(arrangement))),
+            this.tempoNote,
+            back,
+        );
+    }
+
     private showProblem(error: RequestFailed, facts: Opened, work: Work): void {
+        if (work.arrangement) {
+            this.clear();
+            this.problem.textContent = messageOf(error);
+            this.problem.hidden = false;
+            return;
+        }
         // Music continues while its pattern is edited; the panel is dimmed.
         if (!this.player.transport.playing || !this.heard || isAnother(this.heard, work.pattern)) this.clear();
         else this.element.classList.add("stale");
@@ -263,7 +304,9 @@ class PlayPanel implements Panel {
         const isOther = !this.heard || isAnother(this.heard, work.pattern);
         if (isOther && !this.player.transport.playing) this.player.transport.seek(0);
         this.heard = work.pattern;
-        this.origins.reset(melody, this.played(work));
+        // Notes of an arrangement come from several texts.
+        this.origins.reset(melody, work.arrangement ? null : this.played(work));
+        this.tempoNote.hidden = !melody.changesTempo;
         this.player.setMelody(melody);
         this.curve.show(melody);
         this.roll.show(melody);
@@ -275,7 +318,7 @@ class PlayPanel implements Panel {
         const range = melody.count > 0 ? `, ${low} to ${high}` : "";
         this.describe(
             `${many(melody.count, "note")} in ${many(barsOf(melody), "bar")}${range}. ${scales}.`,
-            facts.title || "the pattern",
+            (work.arrangement ? titleOfArrangement(work.arrangement) : facts.title) || "the pattern",
         );
         this.applyTempo();
         this.bar.showMelody(melody);
@@ -319,10 +362,10 @@ class PlayPanel implements Panel {
         const { work } = this.studio.store;
         try {
             const { json, bytes } = await this.studio.engine.request<Made>(
-                { do: "make", interpreter: "play", format: "mid", options: work.play, pattern: this.played(work) },
-                { key: "midi file" },
+                { do: "make", interpreter: "play", format: "mid", options: work.play, ...this.sourceOf(work) },
+                { key: "midi file", seconds: 60 },
             );
-            const name = `${work.pattern.name.replace(/\.[^.]*$/, "") || "melody"}.mid`;
+            const name = `${(work.arrangement ?? work.pattern).name.replace(/\.[^.]*$/, "") || "melody"}.mid`;
             this.studio.save(name, bytes, "audio/midi");
             const warning = json.remarks.find((remark) => remark.is_warning);
             this.studio.say(warning ? warning.text : `Saved ${name}.`, warning ? "warning" : "fact");
@@ -410,8 +453,8 @@ class PlayPanel implements Panel {
         this.isShown = true;
         const { opened, store } = this.studio;
         // While a new text has errors, there is nothing to play.
-        const isOurs = opened && !isAnother(opened.work.pattern, store.work.pattern);
-        if (this.isStale && isOurs) void this.load(opened.facts, { ...opened.work, play: store.work.play });
+        const isOurs = opened && (store.work.arrangement || !isAnother(opened.work.pattern, store.work.pattern));
+        if (this.isStale && isOurs) void this.load(opened.facts, { ...opened.work, ...played(store.work) });
         this.curve.reset();
         this.roll.reset();
     }

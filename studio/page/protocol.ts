@@ -11,9 +11,10 @@ export interface PatternRequest {
 
 export type Options = [string, string][]; // names as in `help`; flags have the value "true"
 
-/// Requests. All except `patterns`, `help`, `show`, `import`, `link`, `dots`, `grid` and `read` concern a pattern.
+/// Requests. All except `patterns`, `arrangements`, `help`, `show`, `import`, `link`, `dots`, `grid` and `read` concern a pattern.
 export type Request =
     | { do: "patterns" }
+    | { do: "arrangements" }
     | { do: "help" }
     | { do: "open"; pattern: PatternRequest }
     | { do: "make"; interpreter: "draw" | "play"; format: string; options?: Options; pattern: PatternRequest }
@@ -29,7 +30,10 @@ export type Request =
     | { do: "check"; pattern: PatternRequest }
     /// The largest derivation length that is drawn quickly, at most one less than the pattern's: see Affordable.
     | { do: "affordable"; seconds: number; pattern: PatternRequest }
+    /// Of a pattern, or of an arrangement, whose patterns are bundled or in its text.
     | { do: "notes"; options?: Options; pattern: PatternRequest }
+    | { do: "notes"; options?: Options; arrangement: ArrangementRequest }
+    | { do: "make"; interpreter: "play"; format: string; options?: Options; arrangement: ArrangementRequest }
     /// Where the modules of the word come from; see Origin. `symbols` are positions in the word, counted from 1, decimal texts.
     | { do: "origins"; symbols: string[]; pattern: PatternRequest }
     | { do: "import"; name: string; view?: string } // with the file's bytes
@@ -80,6 +84,10 @@ export interface Failure {
 
 export interface PatternEntry { name: string; kind: string; title: string; source: string; text: string; is_melody: boolean; is_spatial: boolean }
 export interface Patterns { patterns: PatternEntry[] }
+/// An arrangement: several patterns played as one piece, as TOML.
+export interface ArrangementRequest { name: string; text: string } // name: in messages: `canon.toml`
+export interface ArrangementEntry extends ArrangementRequest { title: string; source: string; parts: number }
+export interface Arrangements { arrangements: ArrangementEntry[] }
 
 export interface KeyHelp {
     name: string; owner: "engine" | "art" | "music"; values: string; if_absent: string; help: string;
@@ -143,6 +151,7 @@ export interface Notes {
     beats: number; unit: number; // meter
     ticks: number; // ticks per quarter note
     parts: { name: string; scale: string; program: number; voices: number; drums: boolean }[];
+    changes?: { onset: number; tempo: number }[]; // of the tempo after the beginning
 }
 
 /// A place in the text; line 0: not in the text, but in a setting.

@@ -64,7 +64,7 @@ export class History implements Store {
         const work = { ...before, ...change };
         if (work.pattern !== before.pattern) work.pattern = renamed(work.pattern, before.pattern);
         if (isSame(work, before)) return;
-        if (!change.pattern && !change.draw && !change.play) {
+        if (!change.pattern && !change.draw && !change.play && change.arrangement === undefined) {
             // changes of the view are not steps of the history
             this.steps[this.at]!.work = work;
             this.tell(before);
@@ -175,7 +175,7 @@ function store(saved: Saved): boolean {
 }
 
 function sizeOf(step: Step): number {
-    return step.work.pattern.text.length + 1000;
+    return step.work.pattern.text.length + (step.work.arrangement?.text.length ?? 0) + 1000;
 }
 
 // The thumbnails that fit beside the steps, those of the newest first.
@@ -201,13 +201,16 @@ function isAnotherView(one: Work, other: Work): boolean {
 function isSame(one: Work, other: Work): boolean {
     const [a, b] = [one.pattern, other.pattern];
     const rest = (work: Work) =>
-        JSON.stringify([work.pattern.settings, work.draw, work.play, work.place, work.panel, work.locked]);
+        JSON.stringify([
+            work.pattern.settings, work.draw, work.play, work.place, work.panel, work.locked, work.arrangement?.text,
+        ]);
     return a.text === b.text && a.name === b.name && a.variant === b.variant && rest(one) === rest(other);
 }
 
 function isWork(work: Work): boolean {
     const { name, text, variant, settings } = work.pattern;
-    const texts = [name, text, variant, work.panel].every((each) => typeof each === "string");
+    const played = work.arrangement ? [work.arrangement.name, work.arrangement.text] : [];
+    const texts = [name, text, variant, work.panel, ...played].every((each) => typeof each === "string");
     return texts && [settings, work.draw, work.play].every(Array.isArray);
 }
 
@@ -233,6 +236,9 @@ function read(): Saved | null {
 
 // Describes the difference between two states in a few words.
 function describe(before: Work, after: Work): string {
+    if (after.arrangement && before.arrangement?.text !== after.arrangement.text) {
+        return after.arrangement.name.replace(/\.toml$/i, "");
+    }
     if (before.pattern.name !== after.pattern.name && isAnother(before.pattern, after.pattern)) {
         return after.pattern.name.replace(/\.lsys$/, "");
     }

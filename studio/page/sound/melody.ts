@@ -11,6 +11,7 @@ export interface Melody {
     readonly beat: number; // ticks
     readonly beats: number; // per bar
     readonly tempo: number; // quarter notes per minute
+    readonly changesTempo: boolean; // after the beginning
     readonly parts: Notes["parts"];
     readonly voices: number;
     readonly partOfVoice: number[];
@@ -74,6 +75,7 @@ export function readMelody(notes: Notes, bytes: Uint8Array): Melody {
         beat: unit,
         beats: notes.beats,
         tempo: notes.tempo,
+        changesTempo: (notes.changes ?? []).some(({ tempo }) => Math.abs(tempo - notes.tempo) > 1e-9),
         parts: notes.parts,
         voices,
         partOfVoice,
