@@ -91,7 +91,7 @@ export interface Studio {
 
 /// A panel of the page. Built once; shown and hidden as its tab is selected.
 export interface Panel {
-    name: string; // in links: `map`, `space`, `play`, `bench`, `variations`, `gallery`
+    name: string; // in links: `map`, `gallery`, `bench`, `play`, `variations`, `steps`, `space`
     label: string;
     element: HTMLElement;
     show(): void;

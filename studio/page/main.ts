@@ -18,6 +18,7 @@ import type { Arrangements, Help, Patterns } from "./protocol";
 import { restoreScales } from "./scales";
 import { watchLinks } from "./share";
 import { makeSpacePanel } from "./space";
+import { makeStepsPanel } from "./steps";
 import { History, putAside } from "./store";
 import { makeTools } from "./tools";
 import { makeVariationsPanel } from "./variations";
@@ -74,6 +75,11 @@ async function main(): Promise<void> {
     application.help = help.json;
     new Panels(application, [
         makeMapPanel,
+        makeGalleryPanel,
+        makeBenchPanel,
+        makePlayPanel,
+        makeVariationsPanel,
+        makeStepsPanel,
         makeSpacePanel,
         makeVariationsPanel,
         makePlayPanel,

@@ -1,5 +1,5 @@
 // The panel with the picture: the page as it will be printed, and the endless plane behind it.
-import type { MakePanel, Studio } from "./context";
+import { messageOf, type MakePanel, type Studio } from "./context";
 import { exactText } from "./decimal";
 import { decimalsOf } from "./camera";
 import { button, element } from "./elements";
@@ -81,6 +81,10 @@ export const makeMapPanel: MakePanel = (studio) => {
                 problem.hidden = now === "";
             } else {
                 refusal.show(now.error, now.pattern);
+                // Patterns of the folder words are read rather than drawn.
+                if (/no visible line/.test(messageOf(now.error))) {
+                    problem.append(button("Show its words", () => studio.store.change({ panel: "steps" })));
+                }
             }
         }
         problem.classList.toggle("quiet", view.failure === null && (view.waiting !== "" || view.problem === ""));

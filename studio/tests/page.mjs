@@ -485,7 +485,7 @@ test("the page works by keyboard", async ({ page }) => {
     await page.keyboard.press("Enter");
     const focus = () => page.evaluate(() => document.activeElement.className || document.activeElement.id);
     assert.match(await focus(), /cm-content/);
-    await page.keyboard.press("Alt+6");
+    await page.keyboard.press("Alt+2");
     assert.equal(await page.getByRole("tab", { name: "Gallery" }).getAttribute("aria-selected"), "true");
     await page.keyboard.press("Home");
     assert.equal(await page.getByRole("tab", { name: "Picture" }).getAttribute("aria-selected"), "true");
