@@ -5,6 +5,7 @@ import { commandSource } from "./command_source";
 import { RequestFailed } from "./context";
 import { openDialog, type Dialog } from "./dialog";
 import { button, checkbox, element, labelled } from "./elements";
+import { openFilm, type FilmKind } from "./film";
 import { bytes as sizeOf, capital } from "./numbers_shown";
 import { drawOptions, windowOnScreen } from "./on_screen";
 import { optionGroups } from "./option_fields";
@@ -188,7 +189,13 @@ class Export {
                 });
             return element("fieldset", {}, element("legend", {}, group), ...labels);
         });
-        return element("div", { class: "formats" }, ...fields);
+        const film = button("Film, GIF or WAV…", () => this.openFilm("line"));
+        return element("div", { class: "formats" }, film, ...fields);
+    }
+
+    private openFilm(kind: FilmKind): void {
+        this.dialog.close();
+        openFilm(this.application, kind);
     }
 
     private windowSwitch(): HTMLElement {
@@ -263,11 +270,18 @@ class Export {
         void this.showCommand(request);
         if (by_the_program.has(format.extension)) {
             this.save.textContent = "Save";
-            const text = "Only the program can write this format; copy the command below.";
+            const here = { gif: "line", wav: "play" }[format.extension] as FilmKind | undefined;
+            const text = here
+                ? "The program writes this format; copy the command below. The page makes a simpler one:"
+                : "Only the program can write this format; copy the command below.";
             const needs = "A GIF is an animation: set the option “Generations”, such as 0:4, or “Divide”.";
             const moves = request.options.some(([name]) => name === "generations" || name === "divide");
             const isStill = format.extension === "gif" && !moves;
             this.showRemarks([{ is_warning: false, text }, ...(isStill ? [{ is_warning: true, text: needs }] : [])]);
+            if (here) {
+                const make = button(`Make a ${format.extension.toUpperCase()} here…`, () => this.openFilm(here));
+                this.remarks.append(element("li", {}, make));
+            }
             return;
         }
         try {

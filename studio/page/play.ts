@@ -3,6 +3,7 @@ import { titleOfArrangement } from "./arrangements";
 import type { MakePanel, Panel, Studio, Work } from "./context";
 import { messageOf, RequestFailed } from "./context";
 import { button, element } from "./elements";
+import { openFilm } from "./film";
 import { onTheme } from "./layout";
 import { optionOf, withOption } from "./options";
 import { CurveView } from "./play/curve_view";
@@ -23,6 +24,7 @@ import { isAnother } from "./versions";
 const icons = {
     closer: "M7 3v8M3 7h8M14 14l-3.5-3.5",
     wider: "M3 7h8M14 14l-3.5-3.5",
+    film: "M2.5 3.5h11v9h-11zM5.5 3.5v9M10.5 3.5v9M2.5 8h3M10.5 8h3",
     save: "M8 2v8M5 7.5L8 10.5l3-3M3 13h10",
 };
 const patience = 300; // milliseconds until the panel reports that it is making a melody
@@ -107,6 +109,7 @@ class PlayPanel implements Panel {
             button("Show fewer bars", () => this.roll.zoom(1.5), { kind: "quiet", icon: icons.closer }),
         );
         const save = button("Save as MIDI", () => void this.saveMidi(), { icon: icons.save, shows: true });
+        const film = button("Save as WAV or film…", () => this.openFilm(), { icon: icons.film, shows: true });
         const group = (title: string, content: HTMLElement): HTMLElement =>
             element("details", { class: "group" }, element("summary", {}, title), content);
         const side = element(
@@ -115,7 +118,7 @@ class PlayPanel implements Panel {
             this.voices.element,
             group("How the curve becomes music", this.reading),
             group("MIDI out", makeMidiMenu(this.player)),
-            element("div", { class: "play-section" }, save, this.facts),
+            element("div", { class: "play-section" }, save, film, this.facts),
         );
         const views = element(
             "div",
@@ -372,6 +375,15 @@ class PlayPanel implements Panel {
         } catch (error) {
             if (error instanceof RequestFailed) this.studio.say(error.message, "error");
         }
+    }
+
+    // A file sounds as the page does, with its voices and tempo.
+    private openFilm(): void {
+        const { player } = this;
+        player.pause();
+        const voices = player.voices.map((voice) => ({ ...voice }));
+        const tempo = 60 / (player.transport.secondsPerTick * (player.melody?.ticks ?? 480));
+        openFilm(this.studio, "play", player.melody && { voices, tempo, volume: player.volume });
     }
 
     // --- drawing ---------------------------------------------------------------------------------------------

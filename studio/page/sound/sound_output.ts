@@ -153,6 +153,10 @@ export class SoundOutput implements NoteSink {
             const at = this.sounding.indexOf(sounding);
             if (at >= 0) this.sounding.splice(at, 1);
         };
+        if (this.sounding.length > most_sounding) {
+            // Offline, all notes are sent before the first one ends.
+            this.sounding = this.sounding.filter((each) => each.end > begin);
+        }
         if (this.sounding.length > most_sounding) this.fade(this.sounding.shift()!, begin, 0.01);
     }
 
