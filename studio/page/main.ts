@@ -1,7 +1,7 @@
 // Starts the studio: the libraries, the work of the last visit, and the panels.
 import { Application } from "./application";
 import { makeBenchPanel } from "./bench";
-import type { Work } from "./context";
+import { messageOf, type Work } from "./context";
 import { Controls } from "./controls";
 import { Editor } from "./editor";
 import { button, byId, element } from "./elements";
@@ -21,7 +21,9 @@ import { makeSpacePanel } from "./space";
 import { makeStepsPanel } from "./steps";
 import { History, putAside } from "./store";
 import { makeTools } from "./tools";
+import { troubleOf } from "./trouble";
 import { makeVariationsPanel } from "./variations";
+import { view, viewedLink } from "./viewing";
 
 const first_text = `title: Snake kolam
 source: Prusinkiewicz & Hanan 1989, figure 6.2
@@ -48,7 +50,8 @@ async function main(): Promise<void> {
     document.head.append(element("style", {}, panelStyles));
     applyTheme();
     makeLayout();
-    const store = new History(first);
+    const viewed = viewedLink(location.hash);
+    const store = new History(first, viewed === null);
     const engine = await startEngine();
     const application = new Application(engine, store);
     store.onUnsaved(() =>
@@ -60,6 +63,7 @@ async function main(): Promise<void> {
     restoreScales(engine);
     new Editor(application);
     new Controls(application);
+    if (viewed !== null) return showOnly(application, viewed);
     const given = givenEntries();
     if (given[0] && !store.history.some(({ work }) => work.pattern.text === given[0]!.text)) {
         openGiven(application, given[0].name);
@@ -81,10 +85,6 @@ async function main(): Promise<void> {
         makeVariationsPanel,
         makeStepsPanel,
         makeSpacePanel,
-        makeVariationsPanel,
-        makePlayPanel,
-        makeBenchPanel,
-        makeGalleryPanel,
     ]);
     makeTools(application);
     acceptDrops(application);
@@ -95,12 +95,30 @@ async function main(): Promise<void> {
     watchLinks(application);
 }
 
+// A page that only shows the work of a link.
+async function showOnly(application: Application, link: string): Promise<void> {
+    const help = await application.engine.request<Help>({ do: "help" });
+    application.help = help.json;
+    application.patterns = [];
+    try {
+        await view(application, link, help.json);
+    } catch (error) {
+        throw new Error(`the link cannot be read: ${messageOf(error)}`);
+    }
+    new Panels(application, [makeMapPanel, makePlayPanel, makeStepsPanel, makeSpacePanel]);
+    await application.open();
+    if (application.hasErrors) byId("panels").append(element("p", { class: "note error" }, "The text of this pattern has errors."));
+}
+
 main().catch((error: unknown) => {
+    const { sentence, isAboutWork } = troubleOf(error);
     byId("message").dataset["kind"] = "error";
-    byId("message").textContent = `The studio could not start: ${String(error)}`;
+    byId("message").textContent = sentence;
     const anew = button("Start without the saved work", () => {
         putAside();
         location.reload();
     });
-    byId("panels").replaceChildren(element("div", { class: "empty" }, anew));
+    const note = element("div", { class: "broken", role: "alert" }, element("p", {}, sentence));
+    if (isAboutWork && viewedLink(location.hash) === null) note.append(anew);
+    byId("panels").replaceChildren(note);
 });

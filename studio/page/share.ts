@@ -12,6 +12,7 @@ import { openPattern } from "./opening";
 import { withOption } from "./options";
 import { titleOf } from "./pattern_text";
 import type { Link, PatternRequest, ReadLink, Shared } from "./protocol";
+import { frameFor, linkIn } from "./viewing";
 
 const quiet_zone = 4; // modules of white around a code
 const code_width = 280; // pixels, for whole pixels in each module
@@ -33,6 +34,8 @@ export function openShare(application: Application): void {
     const dialog = openDialog("Share");
     const address = element("textarea", { readonly: true, rows: 4, "aria-label": "Link", spellcheck: "false" });
     const facts = element("p", { role: "status" });
+    const frame = element("textarea", { readonly: true, rows: 3, "aria-label": "Code of the frame", spellcheck: "false" });
+    const copyFrame = button("Copy the code", () => copyOrSelect(application, "code", frame.value, () => frame.select()));
     const code = element("canvas", { class: "code", role: "img", "aria-label": "QR code of the link" });
     const hasView = windowOnScreen(application) !== null;
     const box = checkbox(() => void make(), { checked: hasView });
@@ -49,6 +52,7 @@ export function openShare(application: Application): void {
             );
             const link = `${location.href.replace(/#.*$/s, "")}#${json.link}`;
             address.value = link;
+            frame.value = frameFor(link, titleOf(application.store.work.pattern));
             showCode(code, facts, isServed() ? link : `#${json.link}`);
         } catch (error) {
             facts.textContent = error instanceof RequestFailed ? error.message : String(error);
@@ -68,6 +72,22 @@ export function openShare(application: Application): void {
                 facts,
                 element("p", {}, "Commands accept it, too: ", element("code", {}, "sikku draw LINK -o print.svg")),
             ),
+        ),
+    );
+    dialog.body.append(
+        element(
+            "details",
+            { class: "group" },
+            element("summary", {}, "Embed in a web page"),
+            element(
+                "p",
+                {},
+                isServed()
+                    ? "The frame shows the picture, the model or the melody without the editor. It draws at once."
+                    : "This page is a local file, which other pages cannot show: open the studio from a server for a frame that works.",
+            ),
+            frame,
+            copyFrame,
         ),
     );
     dialog.footer.append(copy);
@@ -102,7 +122,7 @@ export async function inspectLink(application: Application, link: string): Promi
     let withheld: ReadLink["withheld"];
     try {
         ({ shared: contents, withheld } = (
-            await application.engine.request<ReadLink>({ do: "read_link", link: link.replace(/^.*#/s, "") })
+            await application.engine.request<ReadLink>({ do: "read_link", link: linkIn(link) })
         ).json);
         if (inspection !== inspections) return;
         const unknown = unknownOptions(contents, application.help);

@@ -36,8 +36,12 @@ export class History implements Store {
     private isSaved = true; // as far as we know
     private warn = () => {};
 
-    constructor(first: Work) {
-        const saved = read();
+    /// @param keeps  false: nothing is read from the browser's storage, nor written to it
+    constructor(
+        first: Work,
+        private readonly keeps = true,
+    ) {
+        const saved = keeps ? read() : null;
         this.steps = saved?.steps ?? [{ work: first, label: "Start", time: Date.now() }];
         this.at = saved?.at ?? 0;
         this.wasSaved = saved !== null;
@@ -149,6 +153,7 @@ export class History implements Store {
     private save(): void {
         clearTimeout(this.timer);
         this.timer = 0;
+        if (!this.keeps) return;
         const isSaved = this.attempts().some(store);
         if (!isSaved && this.isSaved) this.warn();
         this.isSaved = isSaved;
@@ -216,12 +221,12 @@ function isWork(work: Work): boolean {
 
 /// Sets the saved work aside, for a page that cannot start with it.
 export function putAside(): void {
-    const saved = localStorage.getItem(storage_key) ?? "";
-    localStorage.removeItem(storage_key);
     try {
+        const saved = localStorage.getItem(storage_key) ?? "";
+        localStorage.removeItem(storage_key);
         localStorage.setItem(`${storage_key}-aside`, saved);
     } catch {
-        // a copy is good to have, a page that starts is better
+        // a copy is good to have, a page that starts is better; a browser may have no storage at all
     }
 }
 
