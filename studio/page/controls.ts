@@ -4,6 +4,7 @@ import { angleAt, degreesOf, readAngle, type Angle } from "./angles";
 import type { Application } from "./application";
 import { joinedStroke, makeColours, splitStroke } from "./colours";
 import { button, byId, element } from "./elements";
+import { whatIsN } from "./explain";
 import { count, counted, rounded, span } from "./numbers_shown";
 import { optionOf, withOption } from "./options";
 import { valueInText, withSettings } from "./pattern_text";
@@ -39,6 +40,7 @@ export class Controls {
     );
     private readonly list = element("div", { class: "value-rows" });
     private readonly cost = element("p", { class: "cost" });
+    private readonly meaning = element("p", { class: "meaning-of-n" });
     private readonly seed;
     private readonly colours;
     private readonly actions;
@@ -103,6 +105,7 @@ export class Controls {
             "stroke",
         ];
         if (names.join("\n") !== this.shape) this.build(names);
+        this.meaning.textContent = whatIsN(facts.is_map);
         this.showCost(facts);
         for (const row of this.rows.values()) row.update(facts);
         this.seed.update(facts);
@@ -123,7 +126,7 @@ export class Controls {
         );
         const focused = document.activeElement instanceof HTMLElement ? document.activeElement.id : "";
         const [length, ...others] = [...this.rows.values()].map((row) => row.slider.element);
-        this.list.replaceChildren(length!, this.cost, ...others);
+        this.list.replaceChildren(length!, this.meaning, this.cost, ...others);
         if (focused) document.getElementById(focused)?.focus();
     }
 
@@ -158,6 +161,7 @@ export class Controls {
 
     private lengthRow(): Row {
         const slider = makeSlider("n", this.acts("derivation length", String));
+        slider.element.id = "row-of-n";
         return {
             slider,
             update: (facts) => {
@@ -200,6 +204,7 @@ export class Controls {
             reset: () => set(null, false),
             explain: () => this.explain("angle factor"),
         });
+        slider.element.id = "row-of-angle";
         return {
             slider,
             update: () => {

@@ -6,8 +6,10 @@ import { Controls } from "./controls";
 import { Editor } from "./editor";
 import { button, byId, element } from "./elements";
 import { startEngine } from "./engine";
+import { makeExplanation } from "./explain";
 import { makeGalleryPanel } from "./gallery";
 import { givenEntries, openGiven } from "./given";
+import { Guide } from "./guide";
 import { applyTheme, makeLayout } from "./layout";
 import { makeMapPanel } from "./map";
 import { acceptDrops } from "./open_file";
@@ -86,11 +88,15 @@ async function main(): Promise<void> {
         makeStepsPanel,
         makeSpacePanel,
     ]);
-    makeTools(application);
+    const guide = new Guide(application);
+    byId("text").append(makeExplanation(() => guide.start()));
+    makeTools(application, () => guide.start());
     acceptDrops(application);
+    if (!store.wasSaved && !given[0] && location.hash.length < 2) guide.welcome();
     await opening;
     if (byId("message").textContent === "Starting…") {
-        application.say(store.wasSaved ? "" : "Edit the text or the values. Press ? for keyboard shortcuts.");
+        const keys = matchMedia("(pointer: coarse)").matches ? "" : " Press ? for keyboard shortcuts.";
+        application.say(store.wasSaved ? "" : `Edit the text or the values.${keys}`);
     }
     watchLinks(application);
 }

@@ -2,10 +2,12 @@
 import type { MakePanel, Studio, Work } from "./context";
 import { button, checkbox, element, labelled, slideTo } from "./elements";
 import { between, eyeText, readEye, turnedEye, type Eye } from "./eye";
+import { showKind } from "./gallery";
 import { Growth, type Grown } from "./growth";
 import { makeLamp, usualLight } from "./lamp";
 import { isDark, onTheme } from "./layout";
 import { isStill } from "./map_motion";
+import { openPattern } from "./opening";
 import { withOption } from "./options";
 import { addOrbit, type Orbit } from "./orbit";
 import { Pace } from "./pace";
@@ -20,6 +22,7 @@ const mostSegments = 150_000; // larger models would take hundreds of megabytes
 const patience = 300; // milliseconds until the panel reports that it is making a model
 const growing = 700; // milliseconds for each derivation length
 const turning = 380; // milliseconds of the transition between two models
+const usualPlant = "bush-3d";
 const front: Eye = { azimuth: 0, elevation: 0, distance: null };
 
 const icons = {
@@ -216,10 +219,25 @@ class SpaceView implements Orbit {
         this.frame = 0;
     }
 
-    private problem(text: string): void {
+    private problem(text: string, offersPlant = false): void {
         this.refusal.clear();
         this.note.textContent = text;
         this.note.hidden = text === "";
+        if (offersPlant) this.offerPlant();
+    }
+
+    // Whoever looks for drawings in space finds one here.
+    private offerPlant(): void {
+        const entry = this.studio.patterns.find(({ name }) => name === usualPlant);
+        if (!entry) return;
+        const open = button("Open a plant", () => {
+            openPattern(this.studio, { name: `${entry.name}.lsys`, text: entry.text }, "space");
+        });
+        const more = button("All plants", () => {
+            this.studio.store.change({ panel: "gallery" });
+            showKind("plants");
+        });
+        this.note.append(element("div", { class: "toolbar space-offer" }, open, more));
     }
 
     // Another pattern: nothing that is shown belongs to it.
@@ -290,8 +308,8 @@ class SpaceView implements Orbit {
         if (!facts) return "";
         if (this.isSpline) {
             return (
-                "Models consist of straight lines, but this pattern draws a spline. " +
-                "A model needs `line: straight`, and symbols that draw."
+                "Here plants and other drawings in space can be turned. This pattern draws a spline in the plane; " +
+                "models consist of straight lines."
             );
         }
         const segments = Number(facts.cost.segments);
@@ -318,7 +336,7 @@ class SpaceView implements Orbit {
         const { obstacle } = this;
         if (obstacle && (n === this.most || this.isSpline)) {
             this.drop();
-            this.problem(obstacle);
+            this.problem(obstacle, this.isSpline);
             return;
         }
         this.wait();
@@ -327,11 +345,13 @@ class SpaceView implements Orbit {
             if (asked !== this.asked) return;
             this.endWait();
             this.take(model, n);
-            this.problem(model === "empty" && n === this.most ? "This pattern draws nothing." : "");
+            const isEmpty = model === "empty" && n === this.most;
+            this.problem(isEmpty ? "This pattern draws nothing." : "", isEmpty);
         } catch (error) {
             if (isAbort(error) || asked !== this.asked) return;
             this.drop();
             this.refusal.show(error, work.pattern);
+            if (!this.opened?.is_spatial) this.offerPlant();
         }
     }
 

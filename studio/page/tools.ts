@@ -70,7 +70,8 @@ function shortcutsOf(application: Application): Shortcut[] {
     ];
 }
 
-export function makeTools(application: Application): void {
+/// @param guide  shows the guided start
+export function makeTools(application: Application, guide: () => void): void {
     const { store } = application;
     const shortcuts = shortcutsOf(application);
     const undo = button(`Undo (${shown("Ctrl+Z")})`, () => store.undo(), { kind: "quiet", icon: icons.undo });
@@ -96,6 +97,7 @@ export function makeTools(application: Application): void {
     menuButton(more, () => [
         ...themes.map(([name, label]) => ({ label, detail: theme() === name ? "✓" : "", act: () => setTheme(name) })),
         null,
+        { label: "Guided start", act: guide },
         { label: "Keyboard", detail: "?", act: () => openShortcuts(shortcuts) },
         { label: "About the studio", act: () => openAbout(application) },
     ]);
