@@ -1,5 +1,6 @@
 // Starts the studio: the libraries, the work of the last visit, and the panels.
 import { Application } from "./application";
+import { watchBack } from "./back";
 import { makeBenchPanel } from "./bench";
 import { messageOf, type Work } from "./context";
 import { Controls } from "./controls";
@@ -92,6 +93,7 @@ async function main(): Promise<void> {
     byId("text").append(makeExplanation(() => guide.start()));
     makeTools(application, () => guide.start());
     acceptDrops(application);
+    watchBack(application);
     if (!store.wasSaved && !given[0] && location.hash.length < 2) guide.welcome();
     await opening;
     if (byId("message").textContent === "Starting…") {

@@ -1,6 +1,7 @@
 // Makes a link with a QR code, and inspects links before they are opened.
 import { generate } from "lean-qr";
 import type { Application } from "./application";
+import { presentEntry } from "./back";
 import { copyOrSelect } from "./clipboard";
 import { messageOf, RequestFailed } from "./context";
 import { openDialog, type Dialog } from "./dialog";
@@ -224,7 +225,7 @@ function values(contents: Shared, pattern: PatternRequest): HTMLElement[] {
 
 // The link has been answered: a reload does not ask again. A link that came in the meantime stays.
 function forgetHash(hash: string): void {
-    if (hash && location.hash === hash) history.replaceState(null, "", location.href.replace(/#.*$/s, ""));
+    if (hash && location.hash === hash) history.replaceState(presentEntry(), "", location.href.replace(/#.*$/s, ""));
 }
 
 export function watchLinks(application: Application): void {
