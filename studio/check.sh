@@ -26,6 +26,7 @@ if command -v chromium > /dev/null; then
     node studio/tests/page.mjs $page
     node studio/tests/views.mjs $page
     node studio/tests/another.mjs $page
+    node studio/tests/newcomers.mjs $page
     node studio/tests/play_and_bench.mjs $page
     # Every timbre is rendered and measured.
     [ -n "$quick" ] || node studio/tests/sound_in_browser.mjs
