@@ -13,6 +13,7 @@ page.on("pageerror", (error) => errors.push(error.message));
 
 // A MIDI output that records its messages, and the marks of highlighted notes.
 await page.addInitScript(() => {
+    localStorage.setItem("sikku-studio-explained", "true"); // the text has all its room
     window.midi = [];
     const port = {
         id: "1",
