@@ -168,7 +168,8 @@ ScoreHead head_of(const PlaySettings& settings, Ensemble& ensemble, const Arrang
         const std::size_t first_part = head.parts.size();
         add_parts(player, counting, voices, head.parts);
         const Part& own = head.parts[first_part];
-        if (!own.is_drums) keys.try_emplace(player.section, own.key);
+        // Scales without a key of their own, such as blues, have the signs of print.
+        if (!own.is_drums) keys.try_emplace(player.section, own.key ? own.key : own.signature);
     }
     head.keys = section_keys(ensemble, playing, keys);
     if (voices.pitched > most) {

@@ -161,7 +161,8 @@ bool is_same_class(double a, double b) {
 
 /// Trims the chords of a section to begin with it and to end before its last rest: the remainder of a chord before
 /// the first bar line joins the next chord if it is shorter than a beat, and chords after the last note are removed.
-void trim_chords(Block& piece, const Melody& melody) {
+/// @param first  the bar line after the upbeat of the section, before which no chord sounds; 0 without an upbeat
+void trim_chords(Block& piece, const Melody& melody, std::int64_t first) {
     if (!melody.has_chords() || melody.accompanying_voices() == 0) return;
     std::int64_t last = 0;
     std::int64_t next = piece.length;  // onset of the second chord
@@ -174,6 +175,16 @@ void trim_chords(Block& piece, const Melody& melody) {
     }
     std::erase_if(piece.notes,
                   [&](const FormNote& one) { return is_chord(one, piece, melody) && one.note.onset >= last; });
+    if (first > 0) {
+        for (FormNote& one : piece.notes) {
+            if (!is_chord(one, piece, melody) || one.note.onset >= first) continue;
+            one.note.duration -= first - one.note.onset;
+            one.note.onset = first;
+        }
+        std::erase_if(piece.notes, [](const FormNote& one) { return one.note.duration <= 0; });
+        sort(piece.notes);
+        return;
+    }
     // The rest is about chords that last a bar, not about strokes of a figure.
     if (!melody.figure.layers.empty()) return;
     if (next >= last || next >= melody.meter.bar() / melody.meter.beats) return;
@@ -385,21 +396,49 @@ void make_coda(Block& piece, const Melody& melody) {
     piece = cut(piece, 0, end_of_melody(piece, melody));
 }
 
-/// Moves a section so that its upbeat, which is now longer or shorter, ends at a bar line of the score.
-void put_on_bar_line(Block& piece, const Melody& melody, Ratio augmentation) {
+/// The rest before an augmented or diminished section, whose upbeat ends at a bar line of the score after it.
+std::int64_t rest_before(const Melody& melody, Ratio augmentation) {
     const std::int64_t bar = melody.meter.bar();
     const std::int64_t upbeat = melody.layout.opening();
     const std::int64_t late = (upbeat - augmentation.of(upbeat)) % bar;
-    const std::int64_t rest = late < 0 ? late + bar : late;
-    for (FormNote& one : piece.notes) one.note.onset += rest;
-    piece.length += rest;
+    return late < 0 ? late + bar : late;
+}
+
+/// The bar line after the upbeat of a section, in ticks of the section; 0 without an upbeat.
+std::int64_t first_bar_line(const Melody& melody, const FormSection& section) {
+    const std::int64_t upbeat = melody.layout.opening();
+    if (section.is_coda) return upbeat;
+    return rest_before(melody, section.augmentation) + section.augmentation.of(upbeat);
+}
+
+/// Ends chords before a tick. @param first  index of the first note to look at
+void end_chords(Block& block, const Melody& melody, std::size_t first, std::int64_t until) {
+    for (std::size_t i = first; i < block.notes.size(); ++i) {
+        Note& note = block.notes[i].note;
+        if (is_chord(block.notes[i], block, melody)) note.duration = std::min(note.duration, until - note.onset);
+    }
+    const auto begin = block.notes.begin() + static_cast<std::ptrdiff_t>(first);
+    block.notes.erase(
+        std::remove_if(begin, block.notes.end(), [](const FormNote& one) { return one.note.duration <= 0; }),
+        block.notes.end());
+}
+
+/// The tick at which the first chord begins; `otherwise` without chords.
+std::int64_t first_chord(const Block& piece, const Melody& melody, std::int64_t otherwise) {
+    std::int64_t first = INT64_MAX;
+    for (const FormNote& one : piece.notes) {
+        if (is_chord(one, piece, melody)) first = std::min(first, one.note.onset);
+    }
+    return first < INT64_MAX ? first : otherwise;
 }
 
 /// Applies the changes that a form states for a section.
 void change_section(Block& piece, const Melody& melody, const FormSection& section) {
     if (section.is_retrograde) reverse_section(piece, melody);
     scale_times(piece, section.augmentation);
-    put_on_bar_line(piece, melody, section.augmentation);
+    const std::int64_t rest = rest_before(melody, section.augmentation);
+    for (FormNote& one : piece.notes) one.note.onset += rest;
+    piece.length += rest;
     if (section.is_coda) make_coda(piece, melody);
     if (section.is_korvai) repeat_as_korvai(piece, melody);
     if (!section.has_other_degrees()) return;
@@ -508,6 +547,8 @@ Block in_form(const Block& block, const Grammar& grammar, const Melody& melody, 
     if (!has_tail && borders.size() > 2) borders.pop_back();
     Block result;
     result.chords_from = block.chords_from;
+    std::size_t section_begin = 0;  // first note of the section before
+    std::int64_t end_before = 0;    // its end, without the rest before the next bar line
     std::vector<FormSection> order = form;
     if (melody.layout.is_retrograde) std::reverse(order.begin(), order.end());
     for (const FormSection& section : order) {
@@ -517,7 +558,14 @@ Block in_form(const Block& block, const Grammar& grammar, const Melody& melody, 
         if (melody.layout.is_retrograde) reverse_section(piece, melody);
         change_section(piece, melody, section);
         if (!ends.empty()) fit(piece, ends[result.ends.size()] - result.length);
-        trim_chords(piece, melody);
+        const std::int64_t bar_line = first_bar_line(melody, section);
+        trim_chords(piece, melody, bar_line);
+        // A chord continues during the upbeat of the next section if this follows at once.
+        if (bar_line > 0) {
+            const std::int64_t next = result.length + first_chord(piece, melody, bar_line);
+            end_chords(result, melody, section_begin, end_before < result.length ? end_before : next);
+        }
+        section_begin = result.notes.size();
         const bool is_last = &section == &order.back();
         end_on(piece, melody, ending_of(piece, melody, section, is_last));
         if (section.is_korvai && is_last && ends.empty()) land(piece, melody);
@@ -529,6 +577,7 @@ Block in_form(const Block& block, const Grammar& grammar, const Melody& melody, 
             result.notes.push_back(one);
         }
         result.length += piece.length;
+        end_before = result.length;
         // The next section begins at a bar line. The sections of a bass have the length of those above it.
         if (ends.empty() && !is_last) {
             const std::int64_t bar = melody.meter.bar();

@@ -58,8 +58,12 @@ void Notator::name_chords() {
         part.chords.push_back(mark);
     }
     part.chords = cut_chords(part.chords, first_tick(), first_tick() + notation_.end());
-    // A score does not begin with the end of a chord.
-    while (!part.chords.empty() && part.chords.front().quality < 0) part.chords.erase(part.chords.begin());
+    // A score does not begin with the end of a chord, unless a repeat leads back to it.
+    const auto leads_back = [&](const ChordMark& chord) {
+        return signs_at(notation_.repeats, chord.onset).begun != nullptr;
+    };
+    while (!part.chords.empty() && part.chords.front().quality < 0 && !leads_back(part.chords.front()))
+        part.chords.erase(part.chords.begin());
     notation_.nameless_chords = static_cast<std::uint64_t>(std::count_if(
         part.chords.begin(), part.chords.end(), [](const ChordMark& chord) { return chord.quality < 0; }));
 }

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <map>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -188,12 +189,40 @@ TEST(Upbeat, ADroneIsHeldThroughTheUpbeatsOfRepetitions) {
     EXPECT_EQ(held_until, 3 * 3840);
 }
 
+/// The chords of a form with an upbeat.
+std::vector<Note> chords_of(const std::string& text, const OptionValues& values) {
+    std::vector<Note> chords = notes_of(text, values).notes;
+    std::erase_if(chords, [](const Note& note) { return note.voice == 0; });
+    EXPECT_GT(chords.size(), 4u) << text;
+    return chords;
+}
+
 TEST(Upbeat, ChordsChangeAtBarLines) {
     for (const std::string form : {"A B A", "A Ac", "A A*2 B", "A A/2 B"}) {
-        const std::string text = curve + "phrases: 2\nharmony: progression I-IV-V-I\nform: " + form + "\n";
-        for (const Note& note : notes_of(text + "upbeat: 1/4\n").notes) {
-            if (note.voice > 0) {
-                EXPECT_EQ((note.onset - 480) % bar, 0) << form << note.onset;
+        for (const int eighths : {1, 2, 4, 6}) {
+            const std::string text = curve + "phrases: 2\nharmony: progression I-IV-V-I\nform: " + form +
+                                     fmt::format("\nupbeat: {}/8\n", eighths);
+            for (const Note& note : chords_of(text, {})) {
+                EXPECT_EQ((note.onset - 240 * eighths) % bar, 0) << text << note.onset;
+            }
+        }
+    }
+}
+
+TEST(Upbeat, ChordsOfSectionsDoNotOverlap) {
+    const OptionValues longer = {{"unit", "1/4"}};
+    for (const std::string form : {"A B A", "A Ac", "A A*2 B", "A A/2 B", "A Ar B", "A Ak B"}) {
+        for (const std::string more : {"", "accompaniment: oom-pah\n", "breath: 1/4\n", "breath: bar\n"}) {
+            for (const int eighths : {1, 2, 4, 6}) {
+                const std::string text = curve + "phrases: 2\nharmony: progression I-IV-V-I\nform: " + form + "\n" +
+                                         more + fmt::format("upbeat: {}/8\n", eighths);
+                EXPECT_EQ(midi_faults(play(parse("u.lsys", text), "mid", longer)), "");
+                std::map<int, std::int64_t> sounds_until;
+                for (const Note& note : chords_of(text, longer)) {
+                    std::int64_t& until = sounds_until[note.voice];
+                    EXPECT_GE(note.onset, until) << text;
+                    until = note.onset + note.duration;
+                }
             }
         }
     }
@@ -334,7 +363,7 @@ TEST(Upbeat, OtherValuesAreRefused) {
         EXPECT_NE(said("upbeat: " + value + "\n").find("expected a note value shorter than a bar"), std::string::npos)
             << value;
     }
-    EXPECT_NE(said("meter: 5/1\nupbeat: 257/64\n").find("above 255"), std::string::npos);
+    EXPECT_NE(said("meter: 5/1\nupbeat: 257/64\n").find("at most 255"), std::string::npos);
     EXPECT_EQ(said("meter: 5/1\nupbeat: 4/1\n"), "");
     EXPECT_NE(said("upbeat: 1/4\nspeed: 3:2\n").find("cannot be combined"), std::string::npos);
     EXPECT_NE(said("upbeat: 1/4\nretrograde: yes\n").find("cannot be combined"), std::string::npos);
