@@ -1,11 +1,11 @@
 #include "music/score/notation_repeats.h"
 
+#include "engine/base/bits.h"
 #include "music/score/bar_lines.h"
 #include "music/score/instruments.h"
 #include "music/score/turns.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -107,7 +107,7 @@ private:
     void add_note(const Note& note, std::size_t index, std::size_t voice, BarContents& contents) const {
         const Part& part = parts_[index].part;
         const auto add = [&](auto number) { contents.push_back(static_cast<std::uint64_t>(number)); };
-        const auto add_real = [&](double number) { contents.push_back(std::bit_cast<std::uint64_t>(number)); };
+        const auto add_real = [&](double number) { contents.push_back(bit_cast<std::uint64_t>(number)); };
         add(index);
         add(voice);
         add(sources_.bar_lines.place(note.onset));
