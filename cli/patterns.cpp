@@ -172,9 +172,45 @@ bool check_scale_file(const std::string& file) {
 
 constexpr std::size_t most_shown_errors = 50;  // errors of a pattern, as Diagnostics keep them
 
+/// The format that is planned to read the files that keys of an interpreter name.
+const char* format_to_check(const Interpreter& interpreter) {
+    return interpreter.owner() == KeyOwner::music ? "mid" : "svg";
+}
+
+/// True if the files and patterns that keys name, such as Scala files and borders, can be read.
+bool check_files(const NamedText& text) {
+    bool good = true;
+    std::vector<std::string> variants = {""};
+    const Document plain = parse(text.name, text.text);
+    for (const Variant& variant : plain.pattern().variants) variants.emplace_back(variant.name.view());
+    for (const std::string& variant : variants) {
+        const Document document = parse(text.name, text.text, {variant, {}});
+        for (const Interpreter* interpreter : interpreters()) {
+            const std::vector<Key>& keys = document.pattern().keys;
+            const bool has_files = std::any_of(keys.begin(), keys.end(), [&](const Key& key) {
+                const KeyInfo* row = find_language_key(key.name);
+                return row && row->owner == interpreter->owner() && (names_file(key) || row->name == "border");
+            });
+            if (!has_files) continue;
+            try {
+                interpreter->plan(document, format_to_check(*interpreter), {});
+            } catch (const PatternError& error) {
+                for (const Diagnostic& diagnostic : error.diagnostics()) fmt::print("{}\n", diagnostic.text());
+                good = false;
+            } catch (const SettingError& error) {
+                fmt::print("{}: {}\n", text.name, error.what());
+                good = false;
+            }
+        }
+        if (!good) break;
+    }
+    return good;
+}
+
 /// True if the file is free of errors.
 bool check(const std::string& file) {
     NamedText text = read_pattern_text(file);
+    const NamedText copy = text;
     if (const std::string foreign = foreign_message(file, text); !foreign.empty()) {
         fmt::print("{}\n", foreign);
         return false;
@@ -186,7 +222,7 @@ bool check(const std::string& file) {
         if (!diagnostic.warning) ++errors;
     }
     if (errors >= most_shown_errors) fmt::print("{}: the first {} errors are shown\n", file, errors);
-    return errors == 0;
+    return errors == 0 && check_files(copy);
 }
 
 }  // namespace

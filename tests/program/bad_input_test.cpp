@@ -698,4 +698,18 @@ TEST(BadInput, PicturesAreNotPatterns) {
     }
 }
 
+TEST(BadInput, CheckReadsTheFilesThatKeysName) {
+    const ScratchFolder folder;
+    for (const std::string key : {"scale: other.scl", "keyboard: m.kbm", "border: nothing", "border: no.lsys",
+                                  "surface: x = missing.s", "variant loud: scale = other.scl"}) {
+        const std::string file = folder.write("names.lsys", "axiom: FF\nheading: 0\n" + key + "\n");
+        EXPECT_EQ(run({"check", file}).status, 2) << key;
+    }
+    folder.write("other.scl", "! other.scl\nhalves\n 2\n600.0\n2/1\n");
+    for (const std::string key : {"scale: other.scl", "border: kaavi", "border: hilbert"}) {
+        const std::string file = folder.write("names.lsys", "axiom: FF\nheading: 0\n" + key + "\n");
+        EXPECT_EQ(run({"check", file}).output, "") << key;
+    }
+}
+
 }  // namespace sikku::bad_input_test
