@@ -76,7 +76,7 @@ def cases() -> Iterator[tuple[str, dict[str, str], sikku.Pattern | sikku.Arrange
 
 
 def lines_of(data: bytes) -> list[int]:
-    """The ticks of the bar lines, from the beginning to the end of the last bar."""
+    """The ticks of the bar lines, from the beginning to the end of the last bar. The first bar includes its upbeat."""
     file = mido.MidiFile(file=io.BytesIO(data))
     last = max(sum(message.time for message in track) for track in file.tracks)
     meters, now = [], 0
@@ -87,7 +87,8 @@ def lines_of(data: bytes) -> list[int]:
     lines = [0]
     while lines[-1] < last:
         lines.append(lines[-1] + value_at(meters, lines[-1]))
-    return lines
+    has_upbeat = len(meters) > 1 and meters[1][0] == meters[0][1] < meters[1][1]
+    return lines[:1] + lines[2:] if has_upbeat else lines
 
 
 def heard(data: bytes) -> tuple[Any, Any, Any]:
@@ -169,13 +170,14 @@ def test_sound_of_windows() -> None:
 
 
 def measures(score: str) -> Any:
-    """For each part its measures: the notes of each, and the dynamics in force at each note."""
+    """For each part its measures, the first with its upbeat: the notes, and the dynamics in force at each note."""
     parts = []
     for part in xml.etree.ElementTree.fromstring(score).iter("part"):
         found, level, hairpin = [], None, None
         divisions = int(part.findtext("measure/attributes/divisions"))
         for measure in part.iter("measure"):
-            notes, dynamics = [], []
+            after_upbeat = len(found) == 1 and measure.get("number") == "1"
+            notes, dynamics = found.pop() if after_upbeat else ([], [])
             for item in measure:
                 if item.tag == "direction":
                     for kind in item.iter("direction-type"):
