@@ -12,6 +12,7 @@
 #include <array>
 #include <climits>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 namespace sikku {
