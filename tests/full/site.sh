@@ -73,7 +73,7 @@ refused "is missing; studio/build.sh" "$root/packaging/site.sh" y "$program" .
 mkdir -p bad/kolams && cp a/patterns/kolams/hostile.lsys 'bad/kolams/<b>.lsys'
 refused "a name consists of" site y --patterns bad
 mkdir -p twice/kolams twice/plants && touch twice/kolams/x.lsys twice/plants/x.lsys
-refused "has the name of" site y --patterns twice
+refused "has the same name as" site y --patterns twice
 [ ! -e y ]
 
 timeout 1200 node "$here/site.mjs" "$folder" "$browser" x a/site ${screenshots:+"$screenshots"}
