@@ -167,8 +167,7 @@ struct WholePart {
     std::int64_t last() const { return start + repeats * period; }
     /// The tick at which it ends, in bars from its first bar line: those of other parts may have another upbeat.
     std::int64_t end_in_bars() const {
-        const std::int64_t own = player->melody.layout.opening() > 0 ? block.melody_end : block.length;
-        return (repeats > 1 ? last() : start + own) - later;
+        return (repeats > 1 ? last() : start + end_of_sections(block, player->melody)) - later;
     }
 };
 
@@ -267,7 +266,7 @@ private:
             if (has_drone) add_drone(part.block, player.melody, options.chords_from);
             const std::int64_t bar = player.melody.meter.bar();
             // The chords of a bar may last until the end of the next upbeat.
-            if (!player.is_bass) arranged = layout.opening() > 0 ? part.block.melody_end : part.block.length;
+            if (!player.is_bass) arranged = end_of_sections(part.block, player.melody);
             part.period = to_score(player).of((arranged + bar - 1) / bar * bar);
             part.later = upbeat_rest(player, ensemble_);
             scale_times(part.block, to_score(player));

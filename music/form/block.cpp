@@ -247,11 +247,6 @@ std::int64_t end_of_melody(const Block& block, const Melody& melody) {
     return end;
 }
 
-/// The tick at which the last sub-curve ends. Chords fill the last bar, in which the next upbeat can begin.
-std::int64_t end_of_sections(const Block& block, const Melody& melody) {
-    return melody.layout.opening() > 0 ? block.melody_end : block.length;
-}
-
 /// The last note of the first voice that has a degree, or null.
 const FormNote* last_with_degree(const Block& block) {
     const auto last = std::find_if(block.notes.rbegin(), block.notes.rend(),
@@ -485,6 +480,10 @@ Ending ending_of(const Block& piece, const Melody& melody, const FormSection& se
 }
 
 }  // namespace
+
+std::int64_t end_of_sections(const Block& block, const Melody& melody) {
+    return melody.layout.opening() > 0 ? block.melody_end : block.length;
+}
 
 Block play_block(PlayableMelody& playable, const Melody& melody, const PlayOptions& options, PlayReport& report) {
     Block block;

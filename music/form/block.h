@@ -36,6 +36,9 @@ constexpr std::size_t most_block_notes = 4'000'000;
 /// Plays a melody into a block. @throws as PlayableMelody::play(); ScoreError for too many notes
 Block play_block(PlayableMelody& playable, const Melody& melody, const PlayOptions& options, PlayReport& report);
 
+/// The tick at which the last sub-curve ends. Chords fill the last bar, in which more can begin with its upbeat.
+std::int64_t end_of_sections(const Block& block, const Melody& melody);
+
 /// Adjusts slides to the present keys of the notes that follow.
 void link_glides(std::vector<FormNote>& notes);
 

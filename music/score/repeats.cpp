@@ -178,7 +178,7 @@ private:
         std::size_t from = 0;
         std::size_t to = 0;
         bool operator<(const Candidate& other) const {
-            // Of two otherwise equal passages, the earlier one is the greater.
+            // If two passages are otherwise equal, prefer the earlier one.
             return std::tuple(passage.saved(), passage.count, sounds, other.passage.first) <
                    std::tuple(other.passage.saved(), other.passage.count, other.sounds, passage.first);
         }

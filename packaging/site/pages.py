@@ -502,7 +502,7 @@ def search_page() -> str:
 
 
 def offline_page() -> str:
-    body = """<div class="head"><h1>Not available offline</h1><p class="lede">There is no network, and this page is not stored.
+    body = """<div class="head"><h1>Not available offline</h1><p class="lede">The network is down, and the browser has not stored this page.
 Pages that you have opened before are available, and so are the <a href="index.html">front page</a>, the
 <a href="first-steps.html">first steps</a> and the <a href="manual/index.html">manual</a>.</p></div>"""
     return page("offline.html", "Offline – Sikku", body, about="This page is not stored for offline use.")

@@ -518,15 +518,14 @@ Json LanguageServer::definition(const Json& parameters) {
 Json LanguageServer::prepare_rename(const Json& parameters) {
     const View view(document_of(parameters));
     const Occurrence* name = view.name_at(parameters);
-    if (!name) throw RenameError("there is no name here");
-    require_renamable(*name);
+    require_renamable(name);
     return {{"range", range_of(view.positions, name->where)}, {"placeholder", name->where.view()}};
 }
 
 Json LanguageServer::rename(const Json& parameters) {
     const View view(document_of(parameters));
     const Occurrence* name = view.name_at(parameters);
-    if (!name) throw RenameError("there is no name here");
+    require_renamable(name);
     const std::vector<TextEdit> edits = renaming(view.pattern, view.names, *name, text_of(parameters, "newName"));
     Json changes = Json::object();
     changes[text_of(member(parameters, "textDocument"), "uri")] = view.edits(edits);

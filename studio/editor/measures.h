@@ -14,7 +14,7 @@ namespace sikku {
 struct QuickMeasures {
     std::string symbols;
     std::string segments;  ///< drawn; of splines, moves
-    /// Of the drawing in turtle steps: x0, y0, x1, y1.
+    /// Bounds of the drawing in turtle steps: x0, y0, x1, y1.
     std::optional<std::array<std::string, 4>> extent;
     bool is_derivable = true;  ///< within the budget of a drawing
     std::string most;          ///< if it is not: the largest derivation length that is

@@ -44,14 +44,14 @@ bool sounds_names(const Pattern& pattern) {
 
 }  // namespace
 
-void require_renamable(const Occurrence& name) {
-    if (name.kind == NameKind::key) throw RenameError("a key cannot be renamed");
-    if (name.kind == NameKind::arrow) throw RenameError("there is no name here");
+void require_renamable(const Occurrence* name) {
+    if (!name || name->kind == NameKind::arrow) throw RenameError("no name at this place");
+    if (name->kind == NameKind::key) throw RenameError("a key cannot be renamed");
 }
 
 std::vector<TextEdit> renaming(const Pattern& pattern, const std::vector<Occurrence>& all, const Occurrence& name,
                                const std::string& new_name) {
-    require_renamable(name);
+    require_renamable(&name);
     const std::string old_name(name.where.view());
     if (new_name == old_name) return {};
     const std::string shown = printable(new_name, 80);

@@ -15,8 +15,8 @@ class RenameError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Refuses occurrences that cannot be renamed: keys and arrows. @throws RenameError
-void require_renamable(const Occurrence& name);
+/// Refuses places without a name (null), keys and arrows, which cannot be renamed. @throws RenameError
+void require_renamable(const Occurrence* name);
 
 /// The edits that rename a symbol, table, define, parameter, surface or variant wherever it occurs, sorted. They do
 /// not change the meaning of the pattern.

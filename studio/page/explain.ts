@@ -1,4 +1,4 @@
-// What an L-system is, and what n is, in a sentence each, where newcomers meet them.
+// Explains L-systems and n, in one sentence each, beside the places where they appear.
 import { button, element } from "./elements";
 import { remember, remembered } from "./storage";
 

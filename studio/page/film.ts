@@ -33,7 +33,7 @@ const longest_film = 60; // seconds
 const most_gif_pixels = 260e6; // of all pictures
 const types = ["video/webm;codecs=vp9,opus", "video/webm;codecs=vp8,opus", "video/webm", "video/mp4"];
 
-/// What shows a picture of the film on a canvas at a time; `seconds` is its length.
+/// Draws the picture of a film at a given time on a canvas; `seconds` is the length of the film.
 interface Film {
     width: number;
     height: number;

@@ -386,14 +386,16 @@ std::string signatures(const std::string& midi) {
     return text;
 }
 
+/// The key signatures of an arrangement as a MIDI file.
+std::string written_keys(const std::string& text, const OptionValues& values = {}) {
+    MemoryDestination memory;
+    plan_score(read(text), "mid", values)->make(memory, "score", {});
+    const std::string bytes = memory.take("score");
+    EXPECT_EQ(midi_faults(bytes), "");
+    return signatures(bytes);
+}
+
 TEST(Arrangement, MidiHasTheKeysOfSections) {
-    const auto written = [](const std::string& text, const OptionValues& values = {}) {
-        MemoryDestination memory;
-        plan_score(read(text), "mid", values)->make(memory, "score", {});
-        const std::string bytes = memory.take("score");
-        EXPECT_EQ(midi_faults(bytes), "");
-        return signatures(bytes);
-    };
     const std::string a = track("section = \"A\"\n");
     const std::string b = track("section = \"B\"\n");
     const std::string c = track("section = \"C\"\n");
@@ -401,23 +403,23 @@ TEST(Arrangement, MidiHasTheKeysOfSections) {
     const std::string keys =
         "[[section]]\nname = \"B\"\ntonic = \"Eb4\"\n[[section]]\nname = \"C\"\nscale = \"whole tone\"\n";
     const std::string all = "form = \"A B B A C B\"\n" + keys + a + b + c;
-    EXPECT_EQ(written(all), " 0:0 1920:-3 5760:0 9600:-3");
-    EXPECT_EQ(written(all, {{"midi-format", "0"}}), " 0:0 1920:-3 5760:0 9600:-3");
-    EXPECT_EQ(written(all, {{"tuning", "mpe"}}), " 0:0 1920:-3 5760:0 9600:-3");
+    EXPECT_EQ(written_keys(all), " 0:0 1920:-3 5760:0 9600:-3");
+    EXPECT_EQ(written_keys(all, {{"midi-format", "0"}}), " 0:0 1920:-3 5760:0 9600:-3");
+    EXPECT_EQ(written_keys(all, {{"tuning", "mpe"}}), " 0:0 1920:-3 5760:0 9600:-3");
     // Sections with a tempo and a meter of their own, a key of a track, and a minor key.
-    EXPECT_EQ(written("form = \"B A\"\n[[section]]\nname = \"B\"\ntempo = 60\nmeter = \"2/4\"\n" + a + b +
-                      "tonic = \"F#4\"\nscale = \"minor\"\n"),
+    EXPECT_EQ(written_keys("form = \"B A\"\n[[section]]\nname = \"B\"\ntempo = 60\nmeter = \"2/4\"\n" + a + b +
+                           "tonic = \"F#4\"\nscale = \"minor\"\n"),
               " 0:3m 1920:0");
     // Excerpts begin with the key of their section.
-    EXPECT_EQ(written(all, {{"from-bar", "2"}}), " 0:-3 3840:0 7680:-3");
-    EXPECT_EQ(written(all, {{"from-bar", "3"}, {"bars", "2"}}), " 0:-3 1920:0");
-    EXPECT_EQ(written(all, {{"from-bar", "3"}, {"bars", "1"}}), " 0:-3");
-    EXPECT_EQ(written(all, {{"from-bar", "5"}, {"bars", "1"}}), "");
+    EXPECT_EQ(written_keys(all, {{"from-bar", "2"}}), " 0:-3 3840:0 7680:-3");
+    EXPECT_EQ(written_keys(all, {{"from-bar", "3"}, {"bars", "2"}}), " 0:-3 1920:0");
+    EXPECT_EQ(written_keys(all, {{"from-bar", "3"}, {"bars", "1"}}), " 0:-3");
+    EXPECT_EQ(written_keys(all, {{"from-bar", "5"}, {"bars", "1"}}), "");
     // The first pitched part of the section decides, not that of the whole piece.
-    EXPECT_EQ(written("form = \"A B\"\n" + track("tonic = \"D4\"\nloop = 2\n") + a + b + "tonic = \"A4\"\n" + b),
+    EXPECT_EQ(written_keys("form = \"A B\"\n" + track("tonic = \"D4\"\nloop = 2\n") + a + b + "tonic = \"A4\"\n" + b),
               " 0:0 1920:3");
-    EXPECT_EQ(written("form = \"A A\"\n" + a), " 0:0");
-    EXPECT_EQ(written(all, {{"transpose", "2"}}), " 0:2 1920:-1 5760:2 7680:0 9600:-1");
+    EXPECT_EQ(written_keys("form = \"A A\"\n" + a), " 0:0");
+    EXPECT_EQ(written_keys(all, {{"transpose", "2"}}), " 0:2 1920:-1 5760:2 7680:0 9600:-1");
 }
 
 TEST(Arrangement, BarsAfterAFormAreRefused) {
@@ -431,13 +433,6 @@ TEST(Arrangement, BarsAfterAFormAreRefused) {
 }
 
 TEST(Arrangement, KeysOfSectionsChangeAtBarLinesAfterAnUpbeat) {
-    const auto written = [](const std::string& text, const OptionValues& values = {}) {
-        MemoryDestination memory;
-        plan_score(read(text), "mid", values)->make(memory, "score", {});
-        const std::string bytes = memory.take("score");
-        EXPECT_EQ(midi_faults(bytes), "");
-        return signatures(bytes);
-    };
     const std::string keys = "[[section]]\nname = \"B\"\ntonic = \"Eb4\"\n";
     const std::string a = track("section = \"A\"\n");
     const std::string b = track("section = \"B\"\n");
@@ -445,14 +440,14 @@ TEST(Arrangement, KeysOfSectionsChangeAtBarLinesAfterAnUpbeat) {
     const std::string upbeat = "upbeat = \"1/8\"\n";
     // Sections last a bar each: the notes of an eighth before it and of four eighths in it.
     for (const std::string& text : {form + a + upbeat + b, form + a + upbeat + b + upbeat}) {
-        EXPECT_EQ(written(text), " 0:0 2160:-3 4080:0");
-        EXPECT_EQ(written(text, {{"midi-format", "0"}}), " 0:0 2160:-3 4080:0");
-        EXPECT_EQ(written(text, {{"tuning", "mpe"}}), " 0:0 2160:-3 4080:0");
-        EXPECT_EQ(written(text, {{"from-bar", "2"}}), " 0:-3 1920:0");
-        EXPECT_EQ(written(text, {{"from-bar", "3"}, {"bars", "1"}}), " 0:0");
+        EXPECT_EQ(written_keys(text), " 0:0 2160:-3 4080:0");
+        EXPECT_EQ(written_keys(text, {{"midi-format", "0"}}), " 0:0 2160:-3 4080:0");
+        EXPECT_EQ(written_keys(text, {{"tuning", "mpe"}}), " 0:0 2160:-3 4080:0");
+        EXPECT_EQ(written_keys(text, {{"from-bar", "2"}}), " 0:-3 1920:0");
+        EXPECT_EQ(written_keys(text, {{"from-bar", "3"}, {"bars", "1"}}), " 0:0");
     }
     // An upbeat of B alone sounds in the bar before.
-    EXPECT_EQ(written(form + a + b + upbeat), " 0:0 1920:-3 3840:0");
+    EXPECT_EQ(written_keys(form + a + b + upbeat), " 0:0 1920:-3 3840:0");
 }
 
 TEST(Arrangement, KeysOfSectionsAreChecked) {
