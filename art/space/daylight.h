@@ -1,16 +1,20 @@
 // art/space/daylight.h: the light of sun and sky that reaches a place of a scene.
 #pragma once
 
+#include "art/space/casters.h"
+#include "art/space/depth_map.h"
+#include "art/space/large_array.h"
+#include "art/space/lit_places.h"
 #include "art/space/scene.h"
 #include "art/style/light.h"
 
-#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <utility>
+#include <optional>
+#include <span>
 #include <vector>
 
 namespace sikku {
@@ -22,8 +26,9 @@ namespace sikku {
 /// The maps have about the resolution of the picture, those of the sky half of it: for drawings of 512 to 2,048
 /// pixels at most 64 of 0.5 MB and 40 of 2 MB, a quarter for smaller and four times as much for larger ones.
 ///
-/// Cost: each direction draws all of the scene once, 20 ns a triangle and more; a query costs 0.3 µs. Memory: the
-/// maps, and 40 bytes a segment.
+/// Cost: each direction draws all of the scene once, see Casters, for the sky with curved surfaces divided half as
+/// finely. It is looked up in 2 ns for each place, if places are lit together that are near each other, so that they
+/// look at the same part of the map. Memory: the maps and the casters.
 /// Source: many shadow maps for one area light: Segal et al. 1992; sky of an overcast day: Moon and Spencer 1942.
 class Daylight {
 public:
@@ -39,62 +44,40 @@ public:
     struct OnSurface {
         glm::vec3 front{0.0F}, behind{0.0F};
     };
-    /// @param normal  of length 1, on the side of the eye
-    /// @param is_thin  light from behind passes through it; else `behind` is 0
-    OnSurface on_surface(const glm::vec3& point, const glm::vec3& normal, bool is_thin) const;
-    /// Share of the light of the sky that reaches the ground.
-    float sky_on_ground(const glm::vec3& point) const;
-    /// Light of the sun on the ground.
-    float sun_on_ground(const glm::vec3& point) const;
+    /// The light on both sides of surfaces. The normals are on the side of the eye; what is not thin has no light
+    /// behind it. @param places  their light is overwritten @param lights  one for each place
+    void on_surfaces(LitPlaces& places, std::vector<OnSurface>& lights) const;
+    /// Share of the light of the sky that reaches points of the ground.
+    std::vector<float> sky_on_ground(std::span<const glm::vec3> points) const;
+    /// Light of the sun on points of the ground.
+    std::vector<float> sun_on_ground(std::span<const glm::vec3> points) const;
     /// Light on the ground, as a share of that on open ground, from the results of the two functions above.
     glm::vec3 on_ground(float sky, float sun) const;
     /// Height of the ground: that of the lowest surface.
-    float ground() const { return ground_; }
+    float ground() const { return casters_.ground(); }
 
 private:
-    /// A depth map of one direction: heights of the surfaces nearest to the light.
-    struct Map {
-        glm::vec3 towards{0.0F};                           ///< direction of the light
-        glm::vec3 across{0.0F}, along{0.0F}, depth{0.0F};  ///< columns, rows and heights for a point …
-        glm::vec3 offset{0.0F};                            ///< … and at the origin
-        float bias = 0;                                    ///< difference of heights that are taken to be equal
-        float nudge = 0;  ///< steps by which places are moved off their surfaces, out of their own shadow
-        int width = 0, rows = 0;
-        std::vector<std::uint16_t> heights;
-        glm::vec3 seen(const glm::vec3& point) const;
-        /// Share of the light that reaches the point, 0 to 1, smooth between the squares of the map.
-        float reaches(const glm::vec3& point) const;
-    };
-    /// A round stem or a ball.
-    struct Round {
-        glm::vec3 from, to;
-        float before = 0, after = 0;  ///< radii
-    };
-    class Drawer;
-
-    Map framed(const glm::vec3& towards, int side) const;
-    void draw(Map& map) const;
+    void make_heights();
     void find_open_ground();
-    int tile() const { return side_ / 32; }
+    void find_shadow(const DepthMap& map);
+    int tiles_around() const;
+    glm::ivec2 tile_at(const glm::vec2& square) const;
+    bool is_tile(int column, int row) const;
+    bool may_be_dark(const glm::vec3& point) const;
     /// Light of the sky and of the sun.
     struct Parts {
         float sky = 0, sun = 0;
     };
-    float sky(const glm::vec3& point, const glm::vec3& normal) const;
-    float sun(const glm::vec3& point, const glm::vec3& normal) const;
-    Parts parts(const glm::vec3& point, const glm::vec3& normal) const;
+    void add_sky(LitPlaces& places) const;
+    void add_sun(LitPlaces& places) const;
     glm::vec3 mixed(const Parts& parts) const;
 
     Light light_;
-    std::vector<std::uint32_t> triangles_;  ///< indices of `corners_`, three each
-    /// Polygons that cross themselves: the first corner and the number of corners of each.
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> outlines_;
-    std::vector<glm::vec3> corners_;
-    std::vector<Round> rounds_;
-    glm::vec3 low_{0.0F}, high_{0.0F};
-    float ground_ = 0;
-    int side_ = 0;  ///< side of the sun's maps, in squares
-    std::vector<Map> sky_, sun_;
+    int side_;  ///< side of the sun's maps, in squares
+    Casters casters_;
+    std::optional<Casters> coarse_;      ///< for the sky's maps, if there are surfaces that can be simplified
+    LargeArray<std::uint16_t> heights_;  ///< of all maps
+    std::vector<DepthMap> sky_, sun_;
     std::vector<float> sky_weights_;
     glm::vec3 open_{1.0F};           ///< light on open ground
     float open_sun_ = 1;             ///< light of the sun on open ground

@@ -36,9 +36,32 @@ float to_linear(float value) {
     return value <= 0.04045F ? value / 12.92F : std::pow((value + 0.055F) / 1.055F, 2.4F);
 }
 
+/// The inverse, from a table of where each byte begins.
+class LinearBytes {
+public:
+    LinearBytes() {
+        for (std::size_t i = 0; i < begins_.size(); ++i) begins_[i] = to_linear(static_cast<float>(i) - 0.5F);
+        std::size_t byte = 0;
+        for (std::size_t i = 0; i < lowest_.size(); ++i) {
+            while (byte < 255 && begins_[byte + 1] * float{cells} <= static_cast<float>(i)) ++byte;
+            lowest_[i] = static_cast<std::uint8_t>(byte);
+        }
+    }
+    std::uint8_t operator()(float value) const {
+        std::size_t byte = lowest_[static_cast<std::size_t>(std::clamp(value, 0.0F, 1.0F) * float{cells})];
+        while (byte < 255 && value >= begins_[byte + 1]) ++byte;
+        return static_cast<std::uint8_t>(byte);
+    }
+
+private:
+    static constexpr int cells = 4096;
+    std::array<float, 256> begins_{};
+    std::array<std::uint8_t, cells + 1> lowest_{};  ///< byte at the beginning of each cell
+};
+
 std::uint8_t from_linear(float value) {
-    const float coded = value <= 0.0031308F ? value * 12.92F : 1.055F * std::pow(value, 1 / 2.4F) - 0.055F;
-    return static_cast<std::uint8_t>(std::lround(255 * std::clamp(coded, 0.0F, 1.0F)));
+    static const LinearBytes bytes;
+    return bytes(value);
 }
 
 /// Compresses bright light instead of cutting it off; light beyond white makes a colour paler.
@@ -74,27 +97,16 @@ glm::vec3 channels_of(Colour colour) {
 
 // --- samples ---------------------------------------------------------------------------------------------------
 
-/// A direction in 30 bits. Source: octahedral normals, Cigolle et al. 2014.
+/// A direction in 30 bits, 10 for each coordinate.
 std::uint32_t packed(const glm::vec3& normal) {
-    const float sum = std::fabs(normal.x) + std::fabs(normal.y) + std::fabs(normal.z);
-    glm::vec2 flat(normal.x / sum, normal.y / sum);
-    if (normal.z < 0) {
-        flat = {(1 - std::fabs(flat.y)) * (flat.x < 0 ? -1.0F : 1.0F),
-                (1 - std::fabs(flat.x)) * (flat.y < 0 ? -1.0F : 1.0F)};
-    }
-    const auto coded = [](float value) { return static_cast<std::uint32_t>((value + 1) * 16383.0F + 0.5F); };
-    return coded(flat.x) << 15 | coded(flat.y);
+    const auto coded = [](float value) { return static_cast<std::uint32_t>(static_cast<int>(value * 511 + 512.5F)); };
+    return coded(normal.x) << 20 | coded(normal.y) << 10 | coded(normal.z);
 }
 
+/// About as long as it was.
 glm::vec3 unpacked(std::uint32_t bits) {
-    const float x = static_cast<float>(bits >> 15 & 0x7fff) / 16383.0F - 1;
-    const float y = static_cast<float>(bits & 0x7fff) / 16383.0F - 1;
-    glm::vec3 normal(x, y, 1 - std::fabs(x) - std::fabs(y));
-    if (normal.z < 0) {
-        normal.x = (1 - std::fabs(y)) * (x < 0 ? -1.0F : 1.0F);
-        normal.y = (1 - std::fabs(x)) * (y < 0 ? -1.0F : 1.0F);
-    }
-    return glm::normalize(normal);
+    const auto decoded = [&](int shift) { return static_cast<float>(static_cast<int>(bits >> shift & 0x3ff) - 512); };
+    return glm::vec3(decoded(20), decoded(10), decoded(0)) * (1 / 511.0F);
 }
 
 constexpr std::uint32_t thin_bit = 1U << 30;
@@ -126,12 +138,13 @@ public:
         const glm::dvec3 ab = b.at - a.at, ac = c.at - a.at;
         const double area = ab.x * ac.y - ab.y * ac.x;
         if (!(std::fabs(area) > 1e-12)) return;
+        const glm::dvec3 ab_part = ab / area, ac_part = ac / area;
         each_run(a.at, b.at, c.at, [&](int y, Sample* row, int begin, int stop) {
             const double dy = y + 0.5 - a.at.y;
             for (int x = begin; x < stop; ++x) {
                 const double dx = x + 0.5 - a.at.x;
-                const double p = std::clamp((dx * ac.y - dy * ac.x) / area, 0.0, 1.0);
-                const double q = std::clamp((dy * ab.x - dx * ab.y) / area, 0.0, 1.0 - p);
+                const double p = std::clamp(dx * ac_part.y - dy * ac_part.x, 0.0, 1.0);
+                const double q = std::clamp(dy * ab_part.x - dx * ab_part.y, 0.0, 1.0 - p);
                 const auto depth = static_cast<float>(a.at.z + p * ab.z + q * ac.z);
                 if (!(depth > row[x].depth)) continue;
                 const auto s = static_cast<float>(p), t = static_cast<float>(q);
@@ -175,6 +188,7 @@ private:
 
 constexpr int most_block = 2;     // pixels, each way, that are lit together …
 constexpr double fine_dpi = 200;  // … from this resolution on
+constexpr int tile_width = 32;    // pixels; a multiple of the blocks
 
 /// Samples of a block of pixels that lie on one surface and are lit together.
 struct LitPart {
@@ -193,8 +207,9 @@ struct LitPart {
 
     bool takes(const Sample& sample, const glm::vec3& its_normal) const {
         constexpr float near = 3 * samples, alike = 0.85F;
-        return is_thin == ((sample.normal & thin_bit) != 0) && std::fabs(sample.depth - depth) < near &&
-               glm::dot(its_normal, normal) > alike * glm::length(normal);
+        const float cosine = glm::dot(its_normal, normal);  // times the length of the sum
+        return is_thin == ((sample.normal & thin_bit) != 0) && std::fabs(sample.depth - depth) < near && cosine > 0 &&
+               cosine * cosine > alike * alike * glm::dot(normal, normal);
     }
 };
 
@@ -469,35 +484,94 @@ private:
 
     // --- light
 
+    class GroundRows;
+
+    /// Pixels that are lit together, so that neighbours look up the same parts of the maps.
+    struct Tile {
+        int left = 0, top = 0, width = 0, rows = 0;  ///< pixels, from the first row of the band
+        int across = 0;                              ///< blocks in a row
+        std::vector<LitPart> parts;                  ///< by blocks
+        std::vector<std::size_t> first_parts;        ///< of each block, and the end
+        std::vector<int> bare;                       ///< samples of each pixel that show the ground
+        LitPlaces places;
+        std::vector<Daylight::OnSurface> lights;  ///< of the parts
+    };
+
     void resolve(const Band& band, int channels, std::vector<std::uint8_t>& pixels) const override {
         const int width = size_.width, rows = band.rows() / samples, top = band.top() / samples;
         pixels.resize(std::size_t(width) * std::size_t(rows) * std::size_t(channels));
-        std::vector<LitPart> parts;
         GroundRows ground(*this, top);
-        for (int y = 0; y < rows; y += block_) {
-            for (int x = 0; x < width; x += block_) {
-                parts.clear();
-                std::array<int, most_block * most_block> bare{};
-                const int wide = std::min(block_, width - x), high = std::min(block_, rows - y);
-                for (int i = 0; i < wide * high; ++i) {
-                    bare[std::size_t(i)] = collect(band, x + i % wide, y + i / wide, std::size_t(i), parts);
-                }
-                const std::vector<Daylight::OnSurface> lights = lights_of(parts);
-                for (int i = 0; i < wide * high; ++i) {
-                    const int column = x + i % wide, row = y + i / wide;
-                    write(
-                        parts, lights, std::size_t(i), bare[std::size_t(i)],
-                        [&] { return ground.at(column, top + row); }, channels,
-                        pixels.data() +
-                            (std::size_t(row) * std::size_t(width) + std::size_t(column)) * std::size_t(channels));
-                }
-            }
+        Tile tile;
+        for (int left = 0; left < width; left += tile_width) {
+            tile.left = left;
+            tile.width = std::min(tile_width, width - left);
+            tile.rows = rows;
+            tile.across = (tile.width + block_ - 1) / block_;
+            collect(band, tile);
+            light(tile, ground);
+            write(tile, ground, channels, pixels);
+        }
+    }
+
+    void collect(const Band& band, Tile& tile) const {
+        tile.parts.clear();
+        tile.first_parts.clear();
+        tile.bare.assign(std::size_t(tile.width) * std::size_t(tile.rows), 0);
+        const int blocks = tile.across * ((tile.rows + block_ - 1) / block_);
+        for (std::size_t block = 0; block < std::size_t(blocks); ++block) {
+            const std::size_t first = tile.parts.size();
+            tile.first_parts.push_back(first);
+            each_pixel(tile, block, [&](std::size_t pixel, int x, int y) {
+                tile.bare[std::size_t(y * tile.width + x)] =
+                    collect(band, tile.left + x, y, pixel, first, tile.parts);
+            });
+        }
+        tile.first_parts.push_back(tile.parts.size());
+    }
+
+    void light(Tile& tile, GroundRows& ground) const {
+        tile.places.clear();
+        for (const LitPart& part : tile.parts) {
+            const glm::vec3 point(stage_.point(part.at / double(part.count)));
+            const float length = glm::length(part.normal);
+            tile.places.add(point, length > 0 ? part.normal / length : glm::vec3(stage_.to_eye(point)), part.is_thin);
+        }
+        daylight_.on_surfaces(tile.places, tile.lights);
+        ground.light(tile);
+    }
+
+    /// The pixels of a block, within the tile.
+    template <class Visit>
+    void each_pixel(const Tile& tile, std::size_t block, Visit&& visit) const {
+        const int left = static_cast<int>(block) % tile.across * block_;
+        const int top = static_cast<int>(block) / tile.across * block_;
+        const int wide = std::min(block_, tile.width - left), high = std::min(block_, tile.rows - top);
+        for (int i = 0; i < wide * high; ++i) visit(std::size_t(i), left + i % wide, top + i / wide);
+    }
+
+    void write(const Tile& tile, const GroundRows& ground, int channels, std::vector<std::uint8_t>& pixels) const {
+        for (std::size_t block = 0; block + 1 < tile.first_parts.size(); ++block) {
+            const std::size_t first = tile.first_parts[block], count = tile.first_parts[block + 1] - first;
+            const auto parts = std::span(tile.parts).subspan(first, count);
+            const auto lights = std::span(tile.lights).subspan(first, count);
+            each_pixel(tile, block, [&](std::size_t pixel, int x, int y) {
+                write(
+                    parts, lights, pixel, tile.bare[std::size_t(y * tile.width + x)],
+                    [&] { return ground.at(tile, block, x, y); }, channels,
+                    pixels.data() + (std::size_t(y) * std::size_t(size_.width) + std::size_t(tile.left + x)) *
+                                        std::size_t(channels));
+            });
         }
     }
 
     /// Gathers the samples of a pixel of a block; returns the number of those that show the ground.
-    static int collect(const Band& band, int column, int line, std::size_t pixel, std::vector<LitPart>& parts) {
+    /// @param first  first part of the block
+    static int collect(const Band& band, int column, int line, std::size_t pixel, std::size_t first,
+                       std::vector<LitPart>& parts) {
+        if (!band.is_touched(column * samples, line * samples)) return samples * samples;
         int bare = 0;
+        std::uint32_t last_bits = 0;
+        glm::vec3 normal = unpacked(last_bits);
         for (int y = line * samples; y < (line + 1) * samples; ++y) {
             const auto row = band.row(y);
             for (int x = column * samples; x < (column + 1) * samples; ++x) {
@@ -506,8 +580,8 @@ private:
                     ++bare;
                     continue;
                 }
-                const glm::vec3 normal = unpacked(sample.normal);
-                auto found = std::find_if(parts.begin(), parts.end(),
+                if (sample.normal != last_bits) normal = unpacked(last_bits = sample.normal);
+                auto found = std::find_if(parts.begin() + std::ptrdiff_t(first), parts.end(),
                                           [&](const LitPart& part) { return part.takes(sample, normal); });
                 if (found == parts.end()) {
                     parts.push_back({.depth = sample.depth, .is_thin = (sample.normal & thin_bit) != 0});
@@ -523,15 +597,6 @@ private:
             }
         }
         return bare;
-    }
-
-    std::vector<Daylight::OnSurface> lights_of(std::span<const LitPart> parts) const {
-        std::vector<Daylight::OnSurface> lights;
-        for (const LitPart& part : parts) {
-            lights.push_back(daylight_.on_surface(glm::vec3(stage_.point(part.at / double(part.count))),
-                                                  glm::normalize(part.normal), part.is_thin));
-        }
-        return lights;
     }
 
     /// @param ground  returns the ground at the pixel
@@ -568,6 +633,21 @@ private:
         if (channels == 4) out[3] = static_cast<std::uint8_t>((alphas + samples * samples / 2) / (samples * samples));
     }
 
+    /// The first pixel of a block that shows the ground, also through what is transparent.
+    std::optional<glm::ivec2> first_bare(const Tile& tile, std::size_t block) const {
+        std::optional<glm::ivec2> result;
+        each_pixel(tile, block, [&](std::size_t pixel, int x, int y) {
+            if (result) return;
+            bool is_bare = tile.bare[std::size_t(y * tile.width + x)] > 0;
+            for (std::size_t i = tile.first_parts[block]; i < tile.first_parts[block + 1]; ++i) {
+                const LitPart::Share& share = tile.parts[i].shares[pixel];
+                is_bare = is_bare || share.alpha < 255 * share.count;
+            }
+            if (is_bare) result = glm::ivec2(x, y);
+        });
+        return result;
+    }
+
     /// The place of the ground at a pixel, if the eye sees one there.
     std::optional<glm::vec3> ground_place(int x, int y) const {
         const glm::dvec3 point = stage_.point({(x + 0.5) * samples, (y + 0.5) * samples, 0.0});
@@ -591,49 +671,84 @@ private:
         return {{from_linear(colour.x), from_linear(colour.y), from_linear(colour.z)}, alpha};
     }
 
-    /// The ground in some rows of pixels. The shadow of the sky, which has no edges, is computed at the corners of
-    /// squares of pixels.
+    /// The ground in a band. The shadow of the sky, which has no edges, is computed at the corners of squares of
+    /// pixels.
     class GroundRows {
     public:
-        GroundRows(const LitRaster& raster, int top) : raster_(raster), top_(top), square_(4 * raster.block_) {}
-        Shown at(int x, int y) {
-            if (!raster_.style_.light.has_ground) return raster_.ground_in(glm::vec3(1.0F));
-            // One place for a block of pixels.
-            const int block = raster_.block_;
-            if (block == 1 || x / block != column_ || y / block != row_) {
-                column_ = x / block;
-                row_ = y / block;
-                const auto place = raster_.ground_place(x, y);
-                sun_ = place ? std::optional(raster_.daylight_.sun_on_ground(*place)) : std::nullopt;
+        /// @param top  first row of the band
+        GroundRows(const LitRaster& raster, int top)
+            : raster_(raster), top_(top), square_(std::min(8 * raster.block_, raster.bands_.height())) {}
+
+        /// Lights the blocks of a tile that show the ground, one place for each.
+        void light(const Tile& tile) {
+            sun_.assign(tile.first_parts.size() - 1, std::nullopt);
+            if (!raster_.style_.light.has_ground) return;
+            std::vector<std::size_t> blocks;
+            std::vector<glm::vec3> places;
+            for (std::size_t block = 0; block < sun_.size(); ++block) {
+                const auto pixel = raster_.first_bare(tile, block);
+                if (!pixel) continue;
+                const auto place = raster_.ground_place(tile.left + pixel->x, top_ + pixel->y);
+                if (!place) continue;
+                blocks.push_back(block);
+                places.push_back(*place);
+                raster_.each_pixel(tile, block, [&](std::size_t, int x, int y) { want(tile.left + x, y); });
             }
-            if (!sun_) return raster_.ground_in(glm::vec3(1.0F));
-            const int left = x / square_ * square_, top = top_ + (y - top_) / square_ * square_;
-            const float dx = static_cast<float>(x - left) / static_cast<float>(square_),
-                        dy = static_cast<float>(y - top) / static_cast<float>(square_);
-            const float above = glm::mix(corner(left, top), corner(left + square_, top), dx);
-            const float below = glm::mix(corner(left, top + square_), corner(left + square_, top + square_), dx);
-            return raster_.ground_in(raster_.daylight_.on_ground(glm::mix(above, below, dy), *sun_));
+            const std::vector<float> suns = raster_.daylight_.sun_on_ground(places);
+            for (std::size_t i = 0; i < blocks.size(); ++i) sun_[blocks[i]] = suns[i];
+            light_corners();
+        }
+
+        /// The ground at a pixel of the tile that was lit last.
+        Shown at(const Tile& tile, std::size_t block, int x, int y) const {
+            if (!sun_[block]) return raster_.ground_in(glm::vec3(1.0F));
+            const int column = (tile.left + x) / square_, row = y / square_;
+            const float dx = static_cast<float>(tile.left + x - column * square_) / static_cast<float>(square_),
+                        dy = static_cast<float>(y - row * square_) / static_cast<float>(square_);
+            const float above = glm::mix(corner(column, row), corner(column + 1, row), dx);
+            const float below = glm::mix(corner(column, row + 1), corner(column + 1, row + 1), dx);
+            return raster_.ground_in(raster_.daylight_.on_ground(glm::mix(above, below, dy), *sun_[block]));
         }
 
     private:
-        float corner(int x, int y) {
-            const auto row = std::size_t((y - top_) / square_), column = std::size_t(x / square_);
-            if (corners_.size() <= row) corners_.resize(row + 1);
-            auto& line = corners_[row];
-            if (line.empty()) line.resize(std::size_t(raster_.size_.width / square_) + 2);
-            if (!line[column]) {
-                const auto place = raster_.ground_place(x, y);
-                line[column] = place ? raster_.daylight_.sky_on_ground(*place) : 1.0F;
+        struct Corner {
+            bool is_wanted = false;
+            float sky = 1;
+        };
+        std::size_t number(int column, int row) const {
+            return std::size_t(row) * (std::size_t(raster_.size_.width / square_) + 2) + std::size_t(column);
+        }
+        float corner(int column, int row) const { return corners_[number(column, row)].sky; }
+        /// Notes that the corners around a pixel are needed.
+        void want(int x, int y) {
+            const int column = x / square_, row = y / square_;
+            if (const std::size_t size = number(0, row + 2); corners_.size() < size) corners_.resize(size);
+            for (const int below : {row, row + 1}) {
+                for (const int right : {column, column + 1}) {
+                    Corner& corner = corners_[number(right, below)];
+                    if (corner.is_wanted) continue;
+                    corner.is_wanted = true;
+                    const auto place = raster_.ground_place(right * square_, top_ + below * square_);
+                    if (!place) continue;
+                    wanted_.push_back(&corner - corners_.data());
+                    wanted_places_.push_back(*place);
+                }
             }
-            return *line[column];
+        }
+        void light_corners() {
+            const std::vector<float> skies = raster_.daylight_.sky_on_ground(wanted_places_);
+            for (std::size_t i = 0; i < wanted_.size(); ++i) corners_[std::size_t(wanted_[i])].sky = skies[i];
+            wanted_.clear();
+            wanted_places_.clear();
         }
 
         const LitRaster& raster_;
         int top_;
-        int square_;                  ///< side in pixels; divides the height of every band
-        int column_ = -1, row_ = -1;  ///< place of the current block
-        std::optional<float> sun_;    ///< sun on it
-        std::vector<std::vector<std::optional<float>>> corners_;  ///< sky at corners of squares, by rows; on demand
+        int square_;                             ///< side in pixels; divides the height of every band
+        std::vector<std::optional<float>> sun_;  ///< on the blocks of the tile
+        std::vector<Corner> corners_;            ///< of squares, by rows
+        std::vector<std::ptrdiff_t> wanted_;     ///< corners to be lit …
+        std::vector<glm::vec3> wanted_places_;   ///< … and where they are
     };
 
     double step_;

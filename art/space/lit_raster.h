@@ -13,10 +13,10 @@ namespace sikku {
 /// blend along a line. Leaves are thin, so that light shines through; each has a slightly different tone, darker at
 /// the base. The ground, which is level and as low as the scene, shows only the shadow.
 ///
-/// All samples of a pixel, or from 200 dpi on of 2 by 2 pixels, that lie on one surface are lit together. Memory: for
-/// each thread and one more, a band with 12 bytes for each of 16 samples a pixel; Daylight; and 24 bytes a segment.
-/// `print` is placed; it and `scene` must outlive the result. @throws std::runtime_error if a side is over 500,000
-/// pixels
+/// All samples of a pixel, or from 200 dpi on of 2 by 2 pixels, that lie on one surface are lit together. The shadow
+/// of the sky on the ground, which has no edges, is computed eight times as far apart. Memory: for each thread and
+/// one more, a band with 12 bytes for each of 16 samples a pixel; Daylight; and 24 bytes a segment. `print` is
+/// placed; it and `scene` must outlive the result. @throws std::runtime_error if a side is over 500,000 pixels
 std::unique_ptr<Rendering> make_lit_raster(const Scene& scene, const Print& print);
 
 }  // namespace sikku

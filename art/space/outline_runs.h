@@ -4,6 +4,7 @@
 #include <glm/vec2.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <utility>
@@ -11,21 +12,32 @@
 
 namespace sikku {
 
-/// Range in which the middle of a row meets a triangle; if it does not, the first number is larger than the second.
+/// The ranges in which the middles of rows meet a triangle.
 template <class Point, class Number = typename Point::value_type>
-std::pair<Number, Number> triangle_run(const Point& a, const Point& b, const Point& c, Number middle) {
-    Number left = std::numeric_limits<Number>::infinity(), right = -left;
-    const auto cut = [&](const Point& p, const Point& q) {
-        if ((p.y <= middle) == (q.y <= middle)) return;
-        const Number x = p.x + (q.x - p.x) * ((middle - p.y) / (q.y - p.y));
-        left = std::min(left, x);
-        right = std::max(right, x);
+class TriangleRuns {
+public:
+    TriangleRuns(const Point& a, const Point& b, const Point& c) : edges_{Edge(a, b), Edge(b, c), Edge(c, a)} {}
+
+    /// From and to; if the row does not meet the triangle, the first number is larger than the second.
+    std::pair<Number, Number> at(Number middle) const {
+        Number left = std::numeric_limits<Number>::infinity(), right = -left;
+        for (const Edge& edge : edges_) {
+            if ((edge.from <= middle) == (edge.to <= middle)) continue;
+            const Number x = edge.x + (middle - edge.from) * edge.slope;
+            left = std::min(left, x);
+            right = std::max(right, x);
+        }
+        return {left, right};
+    }
+
+private:
+    struct Edge {
+        Edge(const Point& p, const Point& q) : from(p.y), to(q.y), x(p.x), slope((q.x - p.x) / (q.y - p.y)) {}
+        Number from, to;  ///< y of its ends
+        Number x, slope;
     };
-    cut(a, b);
-    cut(b, c);
-    cut(c, a);
-    return {left, right};
-}
+    std::array<Edge, 3> edges_;
+};
 
 /// Calls `visit(y, from, to)` for each stretch that the outline runs around (non-zero winding rule), along the
 /// middles of the rows from `first` up to `end`. @param outline  points with x and y

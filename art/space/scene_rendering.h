@@ -22,21 +22,30 @@
 
 namespace sikku {
 
-/// Samples of some rows of a picture.
+/// Samples of some rows of a picture. Stretches that nothing has touched cost nothing.
 template <class Sample>
 class SampleBand {
 public:
+    static constexpr int stretch = 32 * SceneBands::samples;  ///< samples
+
     /// @param width, rows  in pixels
     SampleBand(int width, int rows)
         : width_(width * SceneBands::samples),
-          samples_(std::size_t(width_) * std::size_t(rows) * SceneBands::samples) {}
+          stretches_(std::size_t((width_ + stretch - 1) / stretch)),
+          samples_(std::size_t(width_) * std::size_t(rows) * SceneBands::samples),
+          touched_(stretches_ * std::size_t(rows), 0) {}
 
     /// @param top  row of samples
     void begin(int top, int rows) {
         top_ = top;
         rows_ = rows;
-        std::fill(samples_.begin(), samples_.end(), Sample());
+        for (std::size_t i = 0; i < touched_.size(); ++i) {
+            if (touched_[i]) empty(static_cast<int>(i / stretches_), static_cast<int>(i % stretches_));
+        }
+        std::fill(touched_.begin(), touched_.end(), char{0});
     }
+    /// Whether there may be something in the stretch around a sample of a row that counts from that of begin().
+    bool is_touched(int x, int y) const { return touched_[number(x, y)] != 0; }
     int top() const { return top_; }
     int rows() const { return rows_; }
     int width() const { return width_; }
@@ -49,10 +58,14 @@ protected:
     template <class Visit>
     void each_run(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, Visit&& visit) {
         const int first = row_after(std::min({a.y, b.y, c.y})), end = row_after(std::max({a.y, b.y, c.y}));
+        if (first == end) return;
+        const TriangleRuns<glm::dvec3> runs(a, b, c);
         for (int y = first; y < end; ++y) {
-            const auto [left, right] = triangle_run(a, b, c, y + 0.5);
+            const auto [left, right] = runs.at(y + 0.5);
             const int begin = column_after(left), stop = column_after(right);
-            if (begin < stop) visit(y, line(y), begin, stop);
+            if (begin >= stop) continue;
+            touch(y, begin, stop);
+            visit(y, line(y), begin, stop);
         }
     }
 
@@ -71,7 +84,9 @@ protected:
         const double slope_x = -normal.x / normal.z, slope_y = -normal.y / normal.z;
         each_outline_run(outline, row_after(low), row_after(high), [&](int y, double from, double to) {
             Sample* const row = line(y);
-            for (int x = column_after(from), stop = column_after(to); x < stop; ++x) {
+            const int begin = column_after(from), stop = column_after(to);
+            touch(y, begin, stop);
+            for (int x = begin; x < stop; ++x) {
                 const double depth = middle.z + (x + 0.5 - middle.x) * slope_x + (y + 0.5 - middle.y) * slope_y;
                 visit(row[x], static_cast<float>(std::clamp(depth, farthest, nearest)));
             }
@@ -86,7 +101,9 @@ protected:
             const double dy = y + 0.5 - centre.y;
             const double half = std::sqrt(std::max(0.0, radius * radius - dy * dy));
             Sample* const row = line(y);
-            for (int x = column_after(centre.x - half), stop = column_after(centre.x + half); x < stop; ++x) {
+            const int begin = column_after(centre.x - half), stop = column_after(centre.x + half);
+            touch(y, begin, stop);
+            for (int x = begin; x < stop; ++x) {
                 const double dx = x + 0.5 - centre.x;
                 visit(row[x], glm::dvec3(dx, dy, std::sqrt(std::max(0.0, radius * radius - dx * dx - dy * dy))));
             }
@@ -103,9 +120,27 @@ protected:
     Sample* line(int y) { return samples_.data() + std::size_t(y - top_) * std::size_t(width_); }
 
 private:
+    std::size_t number(int x, int y) const {
+        return std::size_t(y / SceneBands::samples) * stretches_ + std::size_t(x / stretch);
+    }
+    /// Notes that samples of a row, counted from the top of the page, may be written.
+    void touch(int y, int begin, int stop) {
+        for (int x = begin / stretch * stretch; x < stop; x += stretch) touched_[number(x, y - top_)] = 1;
+    }
+    /// @param line  row of pixels
+    void empty(int line, int piece) {
+        const int left = piece * stretch, right = std::min(width_, left + stretch);
+        for (int y = line * SceneBands::samples; y < (line + 1) * SceneBands::samples; ++y) {
+            Sample* const row = samples_.data() + std::size_t(y) * std::size_t(width_);
+            std::fill(row + left, row + right, Sample());
+        }
+    }
+
     int width_;
     int top_ = 0, rows_ = 0;
+    std::size_t stretches_;  ///< of a row
     std::vector<Sample> samples_;
+    std::vector<char> touched_;  ///< stretches of rows of pixels
 };
 
 /// A rendering of a scene, with surfaces divided to the resolution of its pixels.

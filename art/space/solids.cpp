@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <numbers>
 #include <numeric>
+#include <span>
 #include <tuple>
 #include <vector>
 
@@ -284,9 +285,6 @@ void draw_solids(const Scene& scene, const Print& print, PathSink& sink, const M
 
 SceneExtent extent_of(const Scene& scene, const Style& style, const glm::dmat3x2& orientation,
                       const Monitor& monitor) {
-    if (!scene.surfaces().empty()) {
-        return extent_of(tessellated(scene, {.share = 1.0 / 2000}, monitor), style, orientation, monitor);
-    }
     Pulse pulse(monitor);
     SceneExtent extent;
     const Projection projection(style.camera, scene.bounds());
@@ -305,6 +303,12 @@ SceneExtent extent_of(const Scene& scene, const Style& style, const glm::dmat3x2
     for (const ScenePolygon& polygon : scene.polygons()) {
         for (const glm::vec3& vertex : scene.vertices(polygon)) extent.box.add(place(vertex));
     }
+    each_divided_patch(
+        scene, {.share = 1.0 / 2000},
+        [&](int, std::span<const glm::vec3> points) {
+            for (const glm::vec3& point : points) extent.box.add(place(point));
+        },
+        monitor);
     for (const SceneSphere& sphere : scene.spheres()) {
         const double scale = projection.scale(scene.at(sphere.centre));
         const glm::dvec2 at = place(sphere.centre);

@@ -21,6 +21,7 @@ Stage::Stage(const Scene& scene, const Print& print, const glm::dmat3x2& units, 
       style_(print.style),
       projection_(print.style.camera, scene.bounds()),
       units_(units),
+      from_units_(glm::inverse(glm::dmat2x2(units[0], units[1]))),
       unit_(unit),
       step_(print.placement.step) {
     // The same light on the page, however the drawing lies on it: from the page, whose y goes down, back to the
@@ -45,12 +46,12 @@ glm::dvec3 Stage::direction(const glm::vec3& point, const glm::vec3& along) cons
 }
 
 glm::dvec3 Stage::point(const glm::dvec3& place) const {
-    const glm::dvec2 flat = glm::inverse(glm::dmat2x2(units_[0], units_[1])) * (glm::dvec2(place) - units_[2]);
+    const glm::dvec2 flat = from_units_ * (glm::dvec2(place) - units_[2]);
     return projection_.point({flat, place.z / unit_}) - scene_.at(glm::vec3(0.0F));
 }
 
 glm::dvec3 Stage::direction_back(const glm::dvec3& seen) const {
-    const glm::dvec2 flat = glm::inverse(glm::dmat2x2(units_[0], units_[1])) * glm::dvec2(seen);
+    const glm::dvec2 flat = from_units_ * glm::dvec2(seen);
     return projection_.turned_back({flat, seen.z / unit_});
 }
 

@@ -47,6 +47,7 @@ private:
     const Style style_;  ///< a copy, because a sheet keeps the stage longer than the print
     Projection projection_;
     glm::dmat3x2 units_;
+    glm::dmat2x2 from_units_;
     double unit_;
     double step_;  ///< millimetres
     glm::dvec3 light_;

@@ -183,51 +183,39 @@ void join(const Surface& surface, int n, std::vector<Grid>& grids) {
     }
 }
 
-}  // namespace
-
-class Tessellation {
+/// Into how many parts the surfaces of a scene are divided, and their points.
+class Division {
 public:
-    Tessellation(const Scene& scene, const Fineness& fineness, const Monitor& monitor)
-        : scene_(scene), fineness_(fineness), pulse_(monitor) {}
-
-    Scene run() {
-        organ_ = static_cast<std::uint32_t>(scene_.polygons_.size());
-        std::vector<SceneSurface> surfaces = std::move(scene_.surfaces_);
-        scene_.surfaces_.clear();
+    Division(const std::vector<SceneSurface>& surfaces, const Fineness& fineness) : fineness_(fineness) {
         for (const SceneSurface& surface : surfaces) {
             shapes_.try_emplace(surface.surface.get(), shape_of(*surface.surface));
         }
-        double coarser = 1;
-        while (facets(surfaces, coarser) > most_facets && coarser < 1e9) coarser *= 2;
-        for (const SceneSurface& surface : surfaces) {
-            ++organ_;
-            add(surface, divisions_of(surface, coarser));
-        }
-        return std::move(scene_);
+        while (facets(surfaces) > most_facets && coarser_ < 1e9) coarser_ *= 2;
     }
 
-private:
-    double facets(const std::vector<SceneSurface>& surfaces, double coarser) const {
+    /// Number of parts of all surfaces.
+    double facets(const std::vector<SceneSurface>& surfaces) const {
         double count = 0;
         for (const SceneSurface& surface : surfaces) {
-            const int n = divisions_of(surface, coarser);
+            const int n = parts_of(surface);
             count += double(surface.surface->patches.size()) * n * n;
         }
         return count;
     }
 
-    /// @param coarser  a factor of the fineness
-    int divisions_of(const SceneSurface& surface, double coarser) const {
+    /// Parts of each patch, each way.
+    int parts_of(const SceneSurface& surface) const {
         const Shape& shape = shapes_.at(surface.surface.get());
         if (!(shape.bend > 0)) return 1;
         const double scale = scale_of(surface);
-        double wanted = coarser > 1 ? 1 : least_of_curved;
-        const double deviation = std::max(fineness_.deviation, fineness_.share * shape.extent * scale) * coarser;
+        double wanted = coarser_ > 1 ? 1 : least_of_curved;
+        const double deviation = std::max(fineness_.deviation, fineness_.share * shape.extent * scale) * coarser_;
         if (deviation > 0) wanted = std::max(wanted, std::sqrt(shape.bend * scale / deviation));
-        if (fineness_.side > 0) wanted = std::max(wanted, shape.extent * scale / (fineness_.side * coarser));
+        if (fineness_.side > 0) wanted = std::max(wanted, shape.extent * scale / (fineness_.side * coarser_));
         return divisions_from(wanted);
     }
 
+    /// The patches of a surface, in its own coordinates.
     const std::vector<Grid>& grids(const Surface& surface, int n) {
         const auto [found, fresh] = grids_.try_emplace({&surface, n});
         if (fresh) {
@@ -238,9 +226,42 @@ private:
         return found->second;
     }
 
+private:
+    Fineness fineness_;
+    double coarser_ = 1;  ///< a factor of the fineness
+    std::map<const Surface*, Shape> shapes_;
+    std::map<std::pair<const Surface*, int>, std::vector<Grid>> grids_;
+};
+
+}  // namespace
+
+class Tessellation {
+public:
+    Tessellation(const Scene& scene, const Fineness& fineness, const Monitor& monitor)
+        : scene_(scene), division_(scene.surfaces(), fineness), pulse_(monitor) {}
+
+    Scene run() {
+        organ_ = static_cast<std::uint32_t>(scene_.polygons_.size());
+        std::vector<SceneSurface> surfaces = std::move(scene_.surfaces_);
+        scene_.surfaces_.clear();
+        reserve(static_cast<std::size_t>(division_.facets(surfaces)));
+        for (const SceneSurface& surface : surfaces) {
+            ++organ_;
+            add(surface, division_.parts_of(surface));
+        }
+        return std::move(scene_);
+    }
+
+private:
+    void reserve(std::size_t facets) {
+        scene_.polygons_.reserve(scene_.polygons_.size() + facets);
+        scene_.vertices_.reserve(scene_.vertices_.size() + 4 * facets);
+        scene_.corners_.reserve(scene_.corners_.size() + 4 * facets);
+    }
+
     void add(const SceneSurface& placed, int n) {
         const Surface& surface = *placed.surface;
-        const std::vector<Grid>& parts = grids(surface, n);
+        const std::vector<Grid>& parts = division_.grids(surface, n);
         const glm::dmat4x3 map(placed.map);
         // Normals turn with the cofactors, which also respect mirroring.
         const glm::dmat3 cofactors(glm::cross(map[1], map[2]), glm::cross(map[2], map[0]),
@@ -282,15 +303,30 @@ private:
     }
 
     Scene scene_;
-    Fineness fineness_;
+    Division division_;
     Pulse pulse_;
     std::uint32_t organ_ = 0;
-    std::map<const Surface*, Shape> shapes_;
-    std::map<std::pair<const Surface*, int>, std::vector<Grid>> grids_;
 };
 
 Scene tessellated(const Scene& scene, const Fineness& fineness, const Monitor& monitor) {
     return Tessellation(scene, fineness, monitor).run();
+}
+
+void each_divided_patch(const Scene& scene, const Fineness& fineness, const PatchVisitor& visit,
+                        const Monitor& monitor) {
+    Division division(scene.surfaces(), fineness);
+    Pulse pulse(monitor);
+    std::vector<glm::vec3> points;
+    for (const SceneSurface& surface : scene.surfaces()) {
+        const glm::dmat4x3 map(surface.map);
+        const int n = division.parts_of(surface);
+        for (const Grid& grid : division.grids(*surface.surface, n)) {
+            pulse();
+            points.clear();
+            for (const glm::dvec3& point : grid.points) points.emplace_back(map * glm::dvec4(point, 1.0));
+            visit(n, points);
+        }
+    }
 }
 
 double bend_of(const SceneSurface& surface) {

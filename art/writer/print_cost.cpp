@@ -205,11 +205,11 @@ constexpr double facet_bytes = 160;   // for each polygon of a divided surface
 /// Processor time of a pixel of a drawing in space, drawn on or not.
 constexpr double sampled_pixel_seconds = 40e-9;
 constexpr double lit_pixel_seconds = 100e-9;
-constexpr double question_seconds = 3e-9;  // for testing whether light of one direction reaches a place
-constexpr double map_square_seconds = 5.5e-9;
-constexpr double shadowed_square_seconds = 6e-9;
-constexpr double ground_block_seconds = 1.45e-6;  // for testing whether sun and sky reach the ground there
-constexpr double map_triangle_seconds = 20e-9;
+constexpr double question_seconds = 1.5e-9;  // for testing whether light of one direction reaches a place
+constexpr double map_square_seconds = 2.5e-9;
+constexpr double shadowed_square_seconds = 3e-9;
+constexpr double ground_block_seconds = 0.2e-6;  // for testing whether sun and sky reach the ground there
+constexpr double map_triangle_seconds = 12e-9;
 constexpr double triangle_seconds = 200e-9;
 constexpr double sample_seconds = 3e-9;
 constexpr double maps_of_sky = 64, maps_of_sun = 40;

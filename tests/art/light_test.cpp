@@ -8,9 +8,11 @@
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <vector>
 
 namespace sikku::light_test {
 
@@ -71,7 +73,17 @@ TEST(Light, ValuesOfTheKey) {
 }
 
 glm::vec3 on_ground(const Daylight& daylight, const glm::vec3& point) {
-    return daylight.on_ground(daylight.sky_on_ground(point), daylight.sun_on_ground(point));
+    const std::array points = {point};
+    return daylight.on_ground(daylight.sky_on_ground(points).front(), daylight.sun_on_ground(points).front());
+}
+
+Daylight::OnSurface on_surface(const Daylight& daylight, const glm::vec3& point, const glm::vec3& normal,
+                               bool is_thin) {
+    LitPlaces places;
+    places.add(point, normal, is_thin);
+    std::vector<Daylight::OnSurface> lights;
+    daylight.on_surfaces(places, lights);
+    return lights.front();
 }
 
 TEST(Daylight, TheGroundUnderATableIsInTheShadowOfTheSun) {
@@ -114,10 +126,10 @@ TEST(Daylight, ThinSurfacesAreLitFromBehindAndSolidOnesNot) {
     Daylight daylight(scene_of(table, print.style), print.style, 1, 1000);
     daylight.build(2, {});
     const glm::vec3 above(5, 10, 5), down(0, -1, 0);
-    EXPECT_GT(daylight.on_surface(above, down, true).behind.y, 1);
-    EXPECT_EQ(daylight.on_surface(above, down, false).behind, glm::vec3(0.0F));
-    EXPECT_GT(daylight.on_surface(above, -down, true).front.y, 1);
-    EXPECT_LT(daylight.on_surface({5, 5, 5}, -down, true).front.y, 0.3) << "under the table";
+    EXPECT_GT(on_surface(daylight, above, down, true).behind.y, 1);
+    EXPECT_EQ(on_surface(daylight, above, down, false).behind, glm::vec3(0.0F));
+    EXPECT_GT(on_surface(daylight, above, -down, true).front.y, 1);
+    EXPECT_LT(on_surface(daylight, {5, 5, 5}, -down, true).front.y, 0.3) << "under the table";
 }
 
 TEST(Stage, PointsOfThePageAreThoseOfTheScene) {
