@@ -33,7 +33,7 @@ TEST(PrintCost, LightTakesMostOfTheTimeOfAPictureInSpace) {
     EXPECT_GT(lit, 3);
     // The cost of light depends on pixels, not on lines.
     const double large = own(cost(plant, "png", {{"size", "A3"}}));
-    EXPECT_GT(large, 2.5 * lit);
+    EXPECT_GT(large, 2.4 * lit);
     EXPECT_LT(large, 5 * lit);
     EXPECT_GT(cost(plant, "png", {{"size", "A3"}}).memory, cost(plant, "png", {{"light", "flat"}}).memory + 100e6);
 }
