@@ -27,40 +27,6 @@ std::string too_much_memory(const JobForecast& forecast, double memory) {
                        bytes_text(memory));
 }
 
-FinishedJob make_gallery_file(GalleryRecord& record, const GalleryFolder& folder, FinishedJob file, bool replaces,
-                              const FileMaker& make) {
-    const GalleryPlace place = folder.place(file.file);
-    const auto there = place.status();
-    if (there && !replaces) {
-        throw std::runtime_error(fmt::format(
-            "'{}' already exists and was not made by this gallery; 'force' replaces it", folder.shown(file.file)));
-    }
-    // Check the link itself, not its target.
-    if (there && !S_ISREG(there->st_mode) && !S_ISDIR(there->st_mode)) place.remove();
-    record.claim(file.file);
-    try {
-        make(place.path(), file);
-    } catch (const Stopped&) {
-        throw;
-    } catch (const std::runtime_error& error) {
-        throw std::runtime_error(place.readable(error.what()));
-    }
-    for (std::string& line : file.warnings) line = place.readable(line, file.file);
-    for (std::string& line : file.told) line = place.readable(line, file.file);
-    const auto made = folder.status(file.file);
-    if (!made) throw std::runtime_error("nothing to write");
-    try {
-        file.bytes = static_cast<std::uint64_t>(made->st_size);
-        file.content = folder.content_hash(file.file);
-        record.add(file);
-    } catch (const std::runtime_error&) {
-        // A file that is not in the record would be refused in the next run.
-        place.remove();
-        throw;
-    }
-    return file;
-}
-
 void Batch::run(std::vector<Task> tasks, double memory) {
     const auto order = [&](const Task& task) {
         const bool is_begun = record_.is_begun(jobs_[task.job].file());
@@ -77,7 +43,10 @@ void Batch::run(std::vector<Task> tasks, double memory) {
     listener_.begin(tasks.size(), cost);
     free_ = memory_ = memory;
     workers_ = thread_count(options_.threads);
+    Publisher publisher(record_);
+    publisher_ = &publisher;
     on_threads(workers_, [&] { for_each_index(static_cast<std::size_t>(workers_), [&](std::size_t) { work(); }); });
+    publisher.finish();
     listener_.end();
     std::sort(failures.begin(), failures.end(), [](const Failure& a, const Failure& b) { return a.job < b.job; });
 }
@@ -123,7 +92,6 @@ void Batch::work() {
     try {
         while (const auto turn = next()) {
             make(*turn);
-            record_.release(jobs_[turn->task.job].file());
             changed_.notify_all();
             listener_.finish(turn->task.forecast.own_seconds());
         }
@@ -140,18 +108,17 @@ void Batch::work() {
 
 void Batch::make(const Turn& turn) {
     const GalleryJob& job = jobs_[turn.task.job];
-    std::optional<FinishedJob> result;
+    std::optional<MadeFile> made;
+    std::optional<FinishedJob> other;
     std::string problem;
     bool is_begun = false;
-    bool is_found = false;
     try {
         // Another run may have made it, or have begun it and been killed.
         if (turn.task.was_busy || folder_.status(job.file())) {
             record_.refresh();
-            if (!options_.redoes) result = record_.finished(job.file(), hashes_[turn.task.job]);
-            is_found = result.has_value();
+            if (!options_.redoes) other = record_.finished(job.file(), hashes_[turn.task.job]);
         }
-        if (!result) result = make_job(turn);
+        if (!other) made = make_job(turn);
     } catch (const Stopped&) {
         is_begun = true;
     } catch (const std::bad_alloc&) {
@@ -159,13 +126,36 @@ void Batch::make(const Turn& turn) {
     } catch (const std::exception& error) {
         problem = *error.what() ? error.what() : "unknown error";
     }
-    const std::lock_guard guard(mutex_);
-    free_ += turn.memory;
-    --under_way_;
-    if (result) (is_found ? found : finished).emplace(turn.task.job, std::move(*result));
-    if (is_begun) begun.push_back(job.file());
-    if (problem.empty()) return;
-    failures.push_back({turn.task.job, std::move(problem)});
+    {
+        const std::lock_guard guard(mutex_);
+        free_ += turn.memory;
+        --under_way_;
+        if (other) found.emplace(turn.task.job, std::move(*other));
+        if (is_begun) begun.push_back(job.file());
+        if (!problem.empty()) fail(turn.task.job, std::move(problem));
+    }
+    if (!made) return record_.release(job.file());
+    publisher_->add(std::move(*made),
+                    [this, turn](FinishedJob file, std::string why) { take(turn, std::move(file), std::move(why)); });
+}
+
+/// Takes a file that has appeared, or a problem for which it has not.
+void Batch::take(const Turn& turn, FinishedJob file, std::string problem) {
+    record_.release(file.file);
+    {
+        const std::lock_guard guard(mutex_);
+        if (problem.empty()) {
+            finished.emplace(turn.task.job, std::move(file));
+        } else {
+            fail(turn.task.job, std::move(problem));
+        }
+    }
+    changed_.notify_all();
+}
+
+/// Call with the lock.
+void Batch::fail(std::size_t job, std::string problem) {
+    failures.push_back({job, std::move(problem)});
     stopped_ = stopped_ || !options_.keep_going;
 }
 
@@ -183,7 +173,7 @@ bool is_meant_for_another(const Remark& remark, const GalleryJob& job, std::span
 
 }  // namespace
 
-FinishedJob Batch::make_job(const Turn& turn) {
+MadeFile Batch::make_job(const Turn& turn) {
     const GalleryJob& job = jobs_[turn.task.job];
     if (!job.pattern->text) throw std::runtime_error(job.pattern->problem);
     const std::string too_much = too_much_memory(turn.task.forecast, memory_);
@@ -192,7 +182,7 @@ FinishedJob Batch::make_job(const Turn& turn) {
     result.file = job.file();
     result.hash = hashes_[turn.task.job];
     result.job = job.text();
-    const auto make = [&](const std::filesystem::path& path, FinishedJob& file) {
+    const auto make = [&](const std::filesystem::path& path, Destination& destination, FinishedJob& file) {
         const Monitor monitor([](void* batch) { return static_cast<Batch*>(batch)->monitor_.stop_requested(); },
                               [](void* batch, std::uint64_t) { static_cast<Batch*>(batch)->listener_.watch(); },
                               this);
@@ -207,7 +197,7 @@ FinishedJob Batch::make_job(const Turn& turn) {
         }
         const auto work = job.work();
         job.works->forget(job.file());
-        for (Remark& remark : work->make(file_system(), path, monitor, turn.threads).remarks) {
+        for (Remark& remark : work->make(destination, path, monitor, turn.threads).remarks) {
             if (is_meant_for_another(remark, job, jobs_)) continue;
             (remark.is_warning ? file.warnings : file.told).push_back(std::move(remark.text));
         }

@@ -3,6 +3,7 @@
 
 #include "art/gallery/forecast.h"
 #include "art/gallery/jobs.h"
+#include "art/gallery/publisher.h"
 #include "art/gallery/record.h"
 
 #include <condition_variable>
@@ -19,18 +20,6 @@ namespace sikku {
 
 /// Reason why a job cannot be made within this many bytes; empty if it can.
 std::string too_much_memory(const JobForecast& forecast, double memory);
-
-/// Makes a file at a path and adds its messages to `file`.
-using FileMaker = std::function<void(const std::filesystem::path& path, FinishedJob& file)>;
-
-/// Makes a file of the gallery and records it. The caller must ensure that no other run makes it at the same time.
-/// @param file  with `file`, `hash` and `job` set
-/// @param replaces  replace an existing file even if it was not made by this gallery; otherwise it causes a
-///                  std::runtime_error. Anything that is neither a file nor a folder, such as a link, is removed
-///                  first
-/// @throws exceptions of `make`; other errors than Stopped as std::runtime_error
-FinishedJob make_gallery_file(GalleryRecord& record, const GalleryFolder& folder, FinishedJob file, bool replaces,
-                              const FileMaker& make);
 
 /// A job that is to be made in this run.
 struct Task {
@@ -81,7 +70,9 @@ private:
     void tell_waiting();
     void work();
     void make(const Turn& turn);
-    FinishedJob make_job(const Turn& turn);
+    MadeFile make_job(const Turn& turn);
+    void take(const Turn& turn, FinishedJob file, std::string problem);
+    void fail(std::size_t job, std::string problem);
 
     const std::vector<GalleryJob>& jobs_;
     const std::vector<std::string>& hashes_;
@@ -90,6 +81,7 @@ private:
     const BatchOptions options_;
     GalleryListener& listener_;
     Monitor monitor_;
+    Publisher* publisher_ = nullptr;  ///< of the run
     std::mutex mutex_;
     std::condition_variable changed_;
     std::list<Task> waiting_;

@@ -69,17 +69,18 @@ public:
                 if (sheet.is_poster != posters) continue;
                 for (const std::string& file : sheet_files(sheet)) {
                     make(file, sheet.size, order, result,
-                         [&](const std::filesystem::path& path, FinishedJob& finished) {
-                             std::string missing = draw_gallery_sheet(jobs_, sheet, path, monitor_);
+                         [&](const std::filesystem::path& path, Destination& destination, FinishedJob& finished) {
+                             std::string missing = draw_gallery_sheet(jobs_, sheet, path, destination, monitor_);
                              if (!missing.empty()) finished.warnings.push_back(std::move(missing));
                          });
                 }
             }
         };
         draw(false);
-        make("index.html", request.title, order, result, [&](const std::filesystem::path& path, FinishedJob&) {
-            write_gallery_index(jobs_, request.title, path, monitor_);
-        });
+        make("index.html", request.title, order, result,
+             [&](const std::filesystem::path& path, Destination& destination, FinishedJob&) {
+                 write_gallery_index(jobs_, request.title, path, destination, monitor_);
+             });
         draw(true);
     }
 
@@ -105,7 +106,9 @@ private:
         try {
             const bool is_ours =
                 name == "index.html" ? is_gallery_page(folder_.read(name, 4096)) : record_.is_ours(name);
-            order.push_back(make_gallery_file(record_, folder_, std::move(file), options_.force || is_ours, make_it));
+            MadeFile made = make_gallery_file(record_, folder_, std::move(file), options_.force || is_ours, make_it);
+            publish_gallery_file(record_, made);
+            order.push_back(std::move(made.file));
             for (const std::string& text : order.back().warnings) {
                 result.warnings.push_back(fmt::format("{}: {}", name, text));
             }

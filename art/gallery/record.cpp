@@ -187,7 +187,7 @@ GalleryRecord::GalleryRecord(const GalleryFolder& folder, std::string name, bool
                                              folder_.shown(name_)));
     }
     // Appended records begin on a line of their own.
-    if (own.is_cut) append("\n", false);
+    if (own.is_cut) append("\n");
     arrivals_ = locks_.arrivals();
     others_were_present_ = locks_.others_present();
     for (const std::string& file : others()) others_.try_emplace(file);
@@ -351,10 +351,10 @@ bool GalleryRecord::is_begun(const std::string& file) const {
     return found != known_.end() && found->second.claimed;
 }
 
-void GalleryRecord::append(const std::string& line, bool durable) {
+void GalleryRecord::append(const std::string& text) {
     while (true) {
-        const ssize_t written = ::write(descriptor_.get(), line.data(), line.size());
-        if (written == static_cast<ssize_t>(line.size())) break;
+        const ssize_t written = ::write(descriptor_.get(), text.data(), text.size());
+        if (written == static_cast<ssize_t>(text.size())) break;
         if (written < 0 && errno == EINTR) continue;
         // A full disk may accept part of the line, which then does not count.
         const int error = written < 0 ? errno : ENOSPC;
@@ -363,22 +363,30 @@ void GalleryRecord::append(const std::string& line, bool durable) {
         }
         cannot_write(folder_.shown(name_), error);
     }
-    if (durable && ::fdatasync(descriptor_.get()) != 0 && errno != EINVAL && errno != EROFS) {
+}
+
+void GalleryRecord::synchronise() {
+    // Claims may be appended meanwhile.
+    if (::fdatasync(descriptor_.get()) != 0 && errno != EINVAL && errno != EROFS) {
         cannot_write(folder_.shown(name_), errno);
     }
 }
 
 void GalleryRecord::claim(const std::string& file) {
     const std::lock_guard guard(mutex_);
-    append(claim_line(file), false);
+    append(claim_line(file));
     // A killed run whose record was damaged may have left unfinished parts of it.
     left_.insert(file);
 }
 
-void GalleryRecord::add(const FinishedJob& job) {
-    // OutputFile has synchronised the file: the record stays correct in any case.
-    const std::lock_guard guard(mutex_);
-    append(job.line(), true);
+void GalleryRecord::add(std::span<const FinishedJob* const> jobs) {
+    std::string lines;
+    for (const FinishedJob* job : jobs) lines += job->line();
+    {
+        const std::lock_guard guard(mutex_);
+        append(lines);
+    }
+    synchronise();
 }
 
 /// Locks the shard records that no run is using and reads their current contents.

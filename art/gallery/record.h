@@ -10,6 +10,7 @@
 #include <mutex>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -50,8 +51,11 @@ public:
 
     /// Call before `file` appears, after take().
     void claim(const std::string& file);
-    /// Synchronises the file to disk, then appends the record in a single write and synchronises that, too.
-    void add(const FinishedJob& job);
+    /// Synchronises the claims. Call before files appear: after a crash of the machine, a file that is there and not
+    /// claimed would be refused.
+    void synchronise();
+    /// Appends the records of files that are on the disk in a single write, and synchronises it.
+    void add(std::span<const FinishedJob* const> jobs);
     /// Rewrites the record beside the old one and renames it into place: the finished jobs of `order`, in that order,
     /// then all other made or begun files. As `sole`, it merges the current records of shards, including the
     /// unfinished files of killed ones, and removes those records unless they are in use. A shard record that adds
@@ -84,7 +88,7 @@ private:
     void take_in(const RecordText& record, bool keeps);
     std::vector<Left> take_over_shards();
     bool is_in_the_whole(const std::vector<FinishedJob>& jobs) const;
-    void append(const std::string& line, bool durable);
+    void append(const std::string& text);
     void remove_left();
     void replace(const std::string& text) const;
 

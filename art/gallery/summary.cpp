@@ -7,7 +7,6 @@
 #include "art/product/print_cell.h"
 #include "art/sheet/sheet.h"
 #include "art/style/white_paper.h"
-#include "engine/base/output_file.h"
 #include "engine/derivation/forecast.h"
 
 #include <fmt/format.h>
@@ -155,15 +154,15 @@ bool is_gallery_page(std::string_view beginning) {
 }
 
 void write_gallery_index(const std::vector<const GalleryJob*>& jobs, const std::string& title,
-                         const std::filesystem::path& path, const Monitor& monitor) {
+                         const std::filesystem::path& path, Destination& destination, const Monitor& monitor) {
     std::vector<GalleryEntry> entries;
     for (const NamedJobs& item : by_name(jobs)) {
         monitor.check();
         entries.push_back(entry_of(item));
     }
-    OutputFile file(path);
-    write_gallery_page(title, entries, file);
-    file.commit();
+    const std::unique_ptr<Output> file = destination.open(path);
+    write_gallery_page(title, entries, *file);
+    file->commit();
 }
 
 std::vector<std::string> sheet_files(const SheetRequest& request) {
@@ -256,14 +255,14 @@ bool is_white(const std::vector<const GalleryJob*>& jobs, const std::vector<Shee
 }  // namespace
 
 std::string draw_gallery_sheet(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request,
-                               const std::filesystem::path& file, const Monitor& monitor) {
+                               const std::filesystem::path& file, Destination& destination, const Monitor& monitor) {
     const std::vector<SheetCell> cells = cells_of(jobs, request);
     if (cells.empty()) throw GalleryError("this gallery has no prints for a sheet");
     SheetOptions options = options_of(request, file);
     if (is_white(jobs, cells)) options.ground = white_paper;
     options.monitor = monitor;
     options.watch = [monitor](std::uint64_t) { monitor.check(); };
-    return draw_sheet(cells, options, file).letters_warning;
+    return draw_sheet(cells, options, file, destination).letters_warning;
 }
 
 double gallery_sheet_memory(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "art/gallery/jobs.h"
+#include "engine/base/output.h"
 
 #include <filesystem>
 #include <string>
@@ -30,14 +31,14 @@ std::vector<std::string> sheet_files(const SheetRequest& request);
 /// @param jobs  jobs whose files exist
 /// @param file  `index.html`: one entry for each name, whatever formats it was made in
 void write_gallery_index(const std::vector<const GalleryJob*>& jobs, const std::string& title,
-                         const std::filesystem::path& file, const Monitor& monitor);
+                         const std::filesystem::path& file, Destination& destination, const Monitor& monitor);
 
 /// Draws the prints among `jobs`, one for each name, on one sheet; the file's extension selects the format. Where
 /// patterns have several derivation lengths, each has rows of its own.
 /// @return a warning of characters in its texts that the lettering lacks; empty if it has all
 /// @throws GalleryError if no job is a print, and everything that draw_sheet() throws
 std::string draw_gallery_sheet(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request,
-                               const std::filesystem::path& file, const Monitor& monitor);
+                               const std::filesystem::path& file, Destination& destination, const Monitor& monitor);
 
 /// Estimated bytes needed to draw that sheet: see sheet_memory(). @throws exceptions of draw_gallery_sheet()
 double gallery_sheet_memory(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request,

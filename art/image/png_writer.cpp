@@ -1,7 +1,7 @@
 #include "art/image/png_writer.h"
 
 #include "art/image/profiles.h"
-#include "engine/base/deflate.h"
+#include "art/image/row_deflate.h"
 #include "engine/base/threads.h"
 
 #include <zlib.h>
@@ -67,37 +67,36 @@ std::uint32_t adler_of_both(std::uint32_t first, std::uint32_t second, std::size
     return static_cast<std::uint32_t>(low % adler_modulus | (high % adler_modulus) << 16U);
 }
 
-/// Rows in the form in which they are compressed, and the result.
+/// The first bytes of a stream of zlib (RFC 1950): deflate with a window of 32 kB, and which level was used.
+std::string stream_header(int level) {
+    return {'\x78', level < 2 ? '\x01' : level < 6 ? '\x5E' : level == 6 ? '\x9C' : '\xDA'};
+}
+
+/// A whole stream of zlib.
+std::string zlib_stream(std::string_view bytes) {
+    constexpr int best_level = 9;
+    std::string packed = stream_header(best_level);
+    RowDeflater(best_level, 1).compress(bytes, true, packed);
+    append_number(packed, adler32_of(1, bytes));
+    return packed;
+}
+
+/// Rows in the form in which they are compressed, and the result. Blocks are reused.
 struct Block {
+    explicit Block(int level, std::size_t pixel_bytes) : deflater(level, pixel_bytes) {}
+
     std::string
         rows;  ///< each after the number of its filter, 0: drawings repeat pixels, and filters make them larger
-    bool is_first = false, is_last = false;
-    std::string packed{};  ///< an IDAT chunk, without the checksum of all blocks
-    std::uint32_t checksum = 1;
-};
+    bool is_last = false;
+    std::string packed;          ///< an IDAT chunk, without the checksum of all blocks
+    std::uint32_t checksum = 1;  ///< of the rows
+    RowDeflater deflater;
 
-void compress(Block& block, int level) {
-    z_stream stream{};
-    constexpr int raw_window = -15, usual_memory = 8;
-    if (deflateInit2(&stream, level, Z_DEFLATED, raw_window, usual_memory, Z_DEFAULT_STRATEGY) != Z_OK) {
-        throw std::bad_alloc();
+    void compress() {
+        deflater.compress(rows, is_last, packed);
+        checksum = adler32_of(1, rows);
     }
-    const std::unique_ptr<z_stream, int (*)(z_stream*)> guard(&stream, deflateEnd);
-    // The header of zlib says which level was used.
-    const char flags = level < 2 ? '\x01' : level < 6 ? '\x5E' : level == 6 ? '\x9C' : '\xDA';
-    if (block.is_first) block.packed = {'\x78', flags};
-    std::array<Bytef, std::size_t{1} << 16U> buffer{};
-    stream.next_in = const_cast<Bytef*>(bytes_of(block.rows));  // zlib.h may declare it without const
-    stream.avail_in = static_cast<uInt>(block.rows.size());
-    do {
-        stream.next_out = buffer.data();
-        stream.avail_out = static_cast<uInt>(buffer.size());
-        const int result = deflate(&stream, block.is_last ? Z_FINISH : Z_FULL_FLUSH);
-        if (result == Z_STREAM_ERROR) throw std::logic_error("zlib refuses a stream");
-        block.packed.append(reinterpret_cast<const char*>(buffer.data()), buffer.size() - stream.avail_out);
-    } while (stream.avail_out == 0);
-    block.checksum = static_cast<std::uint32_t>(adler32_z(1, bytes_of(block.rows), block.rows.size()));
-}
+};
 
 class PngWriter final : public ImageWriter {
 public:
@@ -105,6 +104,7 @@ public:
         : file_(std::fopen(path.c_str(), "wb"), &std::fclose),
           stride_(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.channels)),
           rows_left_(static_cast<std::size_t>(spec.height)),
+          pixel_bytes_(static_cast<std::size_t>(spec.channels)),
           level_(spec.compression) {
         if (!file_) fail();
         write("\x89PNG\r\n\x1A\n");
@@ -116,8 +116,7 @@ public:
         write(chunk("IHDR", header));
         if (spec.icc) {
             const std::string_view profile = spec.channels < 3 ? grey_profile() : srgb_profile();
-            write(
-                chunk("iCCP", std::string("ICC profile") + std::string(2, '\0') + deflated(profile, Deflate::zlib)));
+            write(chunk("iCCP", std::string("ICC profile") + std::string(2, '\0') + zlib_stream(profile)));
         } else {
             write(chunk("sRGB", std::string(1, '\0')));
         }
@@ -133,8 +132,8 @@ public:
 
     void rows(int /*first_row*/, int rows, std::span<const std::uint8_t> pixels) override {
         for (std::size_t row = 0; row < static_cast<std::size_t>(rows); ++row) {
-            if (blocks_.empty() || blocks_.back().rows.size() + stride_ >= block_bytes) begin_block();
-            std::string& text = blocks_.back().rows;
+            if (used_ == 0 || blocks_[used_ - 1].rows.size() + stride_ >= block_bytes) begin_block();
+            std::string& text = blocks_[used_ - 1].rows;
             text += '\0';
             text.append(reinterpret_cast<const char*>(pixels.data()) + row * stride_, stride_);
             --rows_left_;
@@ -143,7 +142,7 @@ public:
 
     void close() override {
         if (rows_left_ > 0) throw std::logic_error("rows of the picture are missing");
-        if (!blocks_.empty()) blocks_.back().is_last = true;
+        if (used_ > 0) blocks_[used_ - 1].is_last = true;
         write_blocks();
         std::string checksum;
         append_number(checksum, checksum_);
@@ -157,30 +156,36 @@ private:
         if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) fail();
     }
 
-    /// Keeps two blocks for each thread.
+    /// Keeps two blocks for each of several threads.
     void begin_block() {
-        if (blocks_.size() >= 2 * static_cast<std::size_t>(available_threads())) write_blocks();
-        blocks_.emplace_back();
-        blocks_.back().rows.reserve(std::max(block_bytes, stride_ + 1));
-        blocks_.back().is_first = std::exchange(is_first_, false);
+        const auto threads = static_cast<std::size_t>(available_threads());
+        if (used_ >= (threads > 1 ? 2 * threads : 1)) write_blocks();
+        if (used_ == blocks_.size()) blocks_.emplace_back(level_, pixel_bytes_);
+        Block& block = blocks_[used_++];
+        block.rows.clear();
+        block.rows.reserve(std::max(std::min(block_bytes, rows_left_ * (stride_ + 1)), stride_ + 1));
+        block.packed = std::exchange(is_first_, false) ? stream_header(level_) : std::string();
     }
 
     void write_blocks() {
-        for_each_index(blocks_.size(), [&](std::size_t i) { compress(blocks_[i], level_); });
-        for (const Block& block : blocks_) {
+        for_each_index(used_, [&](std::size_t i) { blocks_[i].compress(); });
+        for (std::size_t i = 0; i < used_; ++i) {
+            const Block& block = blocks_[i];
             write(chunk("IDAT", block.packed));
             checksum_ = adler_of_both(checksum_, block.checksum, block.rows.size());
         }
-        blocks_.clear();
+        used_ = 0;
     }
 
     std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
     std::size_t stride_;     ///< bytes of a row
     std::size_t rows_left_;  ///< rows that have not come yet
+    std::size_t pixel_bytes_;
     int level_;
     bool is_first_ = true;
     std::uint32_t checksum_ = 1;  ///< of the blocks that were written
     std::vector<Block> blocks_;
+    std::size_t used_ = 0;  ///< blocks with rows
 };
 
 }  // namespace

@@ -57,7 +57,7 @@ constexpr auto line_costs = std::to_array<CostOf<LineCost>>({
     {dxf, {200e-9, 2e-6, 40, 400, 0, 0, 500}},
 });
 constexpr auto pixel_costs = std::to_array<CostOf<PixelCost>>({
-    {png, {9e-9, 60e-9, 0.01}},
+    {png, {3e-9, 25e-9, 0.01}},
     {tiff, {14e-9, 40e-9, 0.01}},
     {jpeg, {3e-9, 15e-9, 0.03}},
     {exr, {34e-9, 40e-9, 0.01}},

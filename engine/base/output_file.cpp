@@ -17,6 +17,8 @@
 #include <cstring>
 #include <map>
 #include <new>
+#include <set>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -94,14 +96,12 @@ int synchronise_folder(const std::filesystem::path& folder) {
     return descriptor ? synchronise(descriptor.get()) : 0;
 }
 
-/// Synchronises all files of the file system that a folder is on; nullopt if the folder is unreadable.
-std::optional<int> synchronise_file_system(const std::filesystem::path& folder) {
-    const Descriptor descriptor = open_folder(folder);
-    if (!descriptor) return std::nullopt;
+/// Synchronises all files of the file system that a folder is on.
+int synchronise_file_system(const Descriptor& folder) {
 #ifdef __EMSCRIPTEN__
-    return synchronise(descriptor.get(), ::fsync);
+    return synchronise(folder.get(), ::fsync);
 #else
-    return synchronise(descriptor.get(), ::syncfs);
+    return synchronise(folder.get(), ::syncfs);
 #endif
 }
 
@@ -316,7 +316,7 @@ void OutputFile::finish(bool synchronised) {
             is_own ? descriptor_ : ::open(temporary_.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
         if (whole < 0) fail(errno);
         int error = mode_ >= 0 && ::fchmod(whole, static_cast<mode_t>(mode_)) != 0 ? errno : 0;
-        if (error == 0 && synchronised) error = synchronise(whole);
+        if (error == 0 && synchronised) error = sikku::synchronise(whole);
         if (!is_own) ::close(whole);
         if (error != 0) fail(error);
     }
@@ -332,32 +332,107 @@ void OutputFile::publish() {
     forget(std::exchange(entry_, nullptr));
 }
 
+/// Synchronises a closed file.
+void OutputFile::synchronise() const {
+    const Descriptor file(::open(temporary_.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
+    if (const int error = file ? sikku::synchronise(file.get()) : errno; error != 0) fail(error);
+}
+
+struct OutputFiles::Group {
+    /// A folder, held open since before its files are written, so that their errors are reported to it.
+    struct Folder {
+        Descriptor descriptor;  ///< none if it is unreadable
+        dev_t device = 0;
+        ino_t inode = 0;
+    };
+    /// An output that becomes a part of the group.
+    struct Member final : Output {
+        Member(Group& owner, const std::filesystem::path& target)
+            : group(owner), file(std::make_unique<OutputFile>(target)) {
+            group.hold_folder(file->target_.parent_path());
+        }
+        void write(std::string_view bytes) override { file->write(bytes); }
+        std::uint64_t size() const override { return file->size(); }
+        bool can_insert() const override { return file->can_insert(); }
+        void insert(std::uint64_t position, std::string_view bytes) override { file->insert(position, bytes); }
+        void overwrite(std::uint64_t position, std::string_view bytes) override { file->overwrite(position, bytes); }
+        const std::filesystem::path& temporary() override { return file->temporary(); }
+        void commit() override {
+            file->finish(false);
+            group.files.push_back(std::move(file));
+        }
+
+        Group& group;
+        std::unique_ptr<OutputFile> file;
+    };
+
+    void hold_folder(const std::filesystem::path& path) {
+        if (folders.contains(path)) return;
+        Folder folder{open_folder(path)};
+        struct stat status {};
+        if (folder.descriptor && ::fstat(folder.descriptor.get(), &status) == 0) {
+            folder.device = status.st_dev;
+            folder.inode = status.st_ino;
+        }
+        folders.emplace(path, std::move(folder));
+    }
+    const Folder& folder_of(const OutputFile& file) const { return folders.at(file.target_.parent_path()); }
+    std::map<std::filesystem::path, Folder> folders;
+    std::vector<std::unique_ptr<OutputFile>> files;
+};
+
+OutputFiles::OutputFiles() : group_(std::make_unique<Group>()) {}
+OutputFiles::~OutputFiles() = default;
+OutputFiles::OutputFiles(OutputFiles&&) noexcept = default;
+OutputFiles& OutputFiles::operator=(OutputFiles&&) noexcept = default;
+
+std::unique_ptr<Output> OutputFiles::open(const std::filesystem::path& target) {
+    return std::make_unique<Group::Member>(*group_, target);
+}
+
 void OutputFiles::add(const std::filesystem::path& target, std::string_view bytes) {
-    files_.push_back(std::make_unique<OutputFile>(target));
-    files_.back()->write(bytes);
-    files_.back()->finish(false);
+    const std::unique_ptr<Output> file = open(target);
+    file->write(bytes);
+    file->commit();
+}
+
+std::filesystem::path OutputFiles::temporary(const std::filesystem::path& target) const {
+    for (const auto& file : group_->files) {
+        if (file->name_ == target) return file->temporary_;
+    }
+    return {};
 }
 
 void OutputFiles::commit() {
-    std::map<std::filesystem::path, bool> folders;  // and whether their files were synchronised together
-    for (const auto& file : files_) {
-        if (!file->direct_) folders[file->target_.parent_path()] = false;
+    OutputFiles* const self = this;
+    commit(std::span(&self, 1));
+}
+
+void OutputFiles::commit(std::span<OutputFiles* const> groups) {
+    // Files that have not appeared.
+    std::vector<std::pair<OutputFile*, const Group::Folder*>> files;
+    for (const OutputFiles* each : groups) {
+        for (const auto& file : each->group_->files) {
+            if (file->direct_ || file->temporary_.empty()) continue;
+            files.emplace_back(file.get(), &each->group_->folders.at(file->target_.parent_path()));
+        }
     }
-    for (auto& [folder, is_done] : folders) {
-        const std::optional<int> error = synchronise_file_system(folder);
-        is_done = error.has_value();
-        if (is_done && *error != 0) files_.front()->fail(*error);
+    // Each file takes some milliseconds, and the whole file system not much more.
+    constexpr std::size_t few = 3;
+    std::set<dev_t> devices;
+    for (const auto& [file, folder] : files) {
+        if (files.size() <= few || !folder->descriptor) {
+            file->synchronise();
+        } else if (devices.insert(folder->device).second) {
+            if (const int error = synchronise_file_system(folder->descriptor); error != 0) file->fail(error);
+        }
     }
-    for (const auto& file : files_) {
-        if (file->direct_ || folders[file->target_.parent_path()]) continue;
-        const Descriptor descriptor(::open(file->temporary_.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
-        if (const int error = descriptor ? synchronise(descriptor.get()) : errno; error != 0) file->fail(error);
-    }
-    for (const auto& file : files_) {
-        if (!file->direct_) file->publish();
-    }
-    for (const auto& each : folders) {
-        if (const int error = synchronise_folder(each.first); error != 0) files_.front()->fail(error);
+    for (const auto& each : files) each.first->publish();
+    // Several paths may name one folder.
+    std::set<std::pair<dev_t, ino_t>> folders;
+    for (const auto& [file, folder] : files) {
+        if (!folder->descriptor || !folders.emplace(folder->device, folder->inode).second) continue;
+        if (const int error = synchronise(folder->descriptor.get()); error != 0) file->fail(error);
     }
 }
 

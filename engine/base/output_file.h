@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -42,6 +43,7 @@ public:
 private:
     friend class OutputFiles;
     void finish(bool synchronised);
+    void synchronise() const;
     void publish();
     void create();
     void flush();
@@ -63,17 +65,32 @@ private:
 /// Reports a failed system call: throws std::runtime_error with the file and the cause, such as a missing folder.
 [[noreturn]] void cannot_write(const std::filesystem::path& file, int error);
 
-/// Many files of one folder: all of them appear, or none. They are synchronised together, so thousands of small
-/// files take little longer than one.
-class OutputFiles {
+/// Files that appear together, once all of them are on the disk: after a crash of the machine each has its old or its
+/// new content. They are synchronised together, so thousands of small files take little longer than one. Until
+/// commit() they are only written beside their targets; without commit() they are removed.
+class OutputFiles : public Destination {
 public:
-    /// Adds a file of that content, which is written beside its target. @throws as OutputFile
+    OutputFiles();
+    ~OutputFiles() override;
+    OutputFiles(OutputFiles&&) noexcept;
+    OutputFiles& operator=(OutputFiles&&) noexcept;
+
+    /// Adds a file of that content. @throws as OutputFile
     void add(const std::filesystem::path& target, std::string_view bytes);
-    /// Synchronises the file systems of the files, renames them and synchronises their folders. Call once, last.
+    /// Opens a file, which its commit() adds.
+    std::unique_ptr<Output> open(const std::filesystem::path& target) override;
+    /// The temporary name of the file of that name; empty if there is none.
+    std::filesystem::path temporary(const std::filesystem::path& target) const;
+    /// Synchronises the files, renames them and synchronises their folders: a few files one by one, more with their
+    /// file systems (syncfs), which also writes what other programs have left to write. Call last. After an
+    /// exception, some files may have appeared; another call continues with the others.
     void commit();
+    /// The same for several at once.
+    static void commit(std::span<OutputFiles* const> groups);
 
 private:
-    std::vector<std::unique_ptr<OutputFile>> files_;
+    struct Group;
+    std::unique_ptr<Group> group_;
 };
 
 /// Removes the temporary files of all OutputFiles that are neither committed nor destroyed, however many there are.

@@ -89,13 +89,14 @@ TEST(PngWriter, BlocksAreOneStreamForAnyNumberOfThreads) {
         int width, height, channels, level;
     };
     // One row and one block; many blocks; rows that are longer than a block.
-    for (const Case& each : {Case{1, 1, 1, 6}, Case{300, 1, 4, 9}, Case{700, 2500, 3, 6}, Case{1024, 1023, 1, 1},
-                             Case{1024, 1024, 1, 2}, Case{400'000, 3, 3, 1}}) {
+    for (const Case& each : {Case{1, 1, 1, 6}, Case{1, 1, 4, 1}, Case{1, 5000, 3, 6}, Case{5000, 1, 3, 6},
+                             Case{300, 1, 4, 9}, Case{700, 2500, 3, 6}, Case{1024, 1023, 1, 1},
+                             Case{1024, 1024, 1, 2}, Case{1024, 1024, 1, 3}, Case{400'000, 3, 3, 1}}) {
         const ImageSpec spec = spec_of(each.width, each.height, each.channels, each.level);
         const Bytes pixels = drawing(static_cast<std::size_t>(each.width) * each.height * each.channels);
         const std::string png = write(spec, pixels, 1, each.height);
         EXPECT_TRUE(decoded(png, spec) == pixels) << each.width << 'x' << each.height;
-        EXPECT_TRUE(write(spec, pixels, 4, 32) == png);
+        EXPECT_TRUE(write(spec, pixels, 8, 32) == png);
         EXPECT_TRUE(write(spec, pixels, 3, 1) == png);
     }
 }
@@ -116,6 +117,37 @@ TEST(PngWriter, OthersReadIt) {
             EXPECT_TRUE(has(outcome.text, icc ? "chunk iCCP" : "chunk sRGB"));
             EXPECT_TRUE(has(outcome.text, "10000x10000 pixels/meter"));
         }
+    }
+}
+
+/// libpng, by netpbm.
+TEST(PngWriter, OthersReadTheSamePixels) {
+    NEEDS("pngtopnm");
+    const ScratchFolder folder;
+    for (const int level : {1, 6, 9}) {
+        const ImageSpec spec = spec_of(611, 1200, 3, level);
+        const Bytes pixels = drawing(std::size_t{611} * 1200 * 3);
+        const auto file = folder.write("x.png", write(spec, pixels, 8, 64));
+        ASSERT_TRUE(run_tool("pngtopnm '" + file + "' > '" + folder.file("x.ppm") + "'").ok);
+        const std::string read = contents(folder / "x.ppm");
+        const std::string header = "P6\n611 1200\n255\n";
+        ASSERT_EQ(read.substr(0, header.size()), header);
+        EXPECT_TRUE(read.substr(header.size()) == std::string(pixels.begin(), pixels.end())) << level;
+    }
+}
+
+TEST(PngWriter, AFullDiskIsReported) {
+    for (const int height : {1, 3000}) {
+        const ImageSpec spec = spec_of(1000, height, 3, 1);
+        std::mt19937 random(5);
+        Bytes pixels(std::size_t{3000} * static_cast<std::size_t>(height));
+        for (auto& byte : pixels) byte = static_cast<std::uint8_t>(random());
+        const auto writer = open_png("/dev/full", spec);
+        EXPECT_TRUE(has(error_of<std::runtime_error>([&] {
+                            writer->rows(0, height, pixels);
+                            writer->close();
+                        }),
+                        "No space left"));
     }
 }
 

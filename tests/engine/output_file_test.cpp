@@ -9,6 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <csignal>
 #include <thread>
 
@@ -327,6 +328,72 @@ TEST(OutputFile, ASignalLeavesNothingIfTheHandlerAsks) {
     ASSERT_EQ(::waitpid(child, &status, 0), child);
     EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 5) << status;
     EXPECT_EQ(folder.names(), std::vector<std::string>{"done"});
+}
+
+TEST(OutputFiles, AppearTogether) {
+    const ScratchFolder folder;
+    fs::create_directory(folder / "below");
+    for (const int count : {1, 3, 40}) {
+        OutputFiles first, second;
+        for (int i = 0; i < count; ++i) {
+            first.add(folder / std::to_string(i), "first");
+            const auto file = second.open(folder / "below" / std::to_string(i));
+            file->write("sond");
+            file->insert(1, "ec");
+            file->commit();
+        }
+        const fs::path temporary = first.temporary(folder / "0");
+        EXPECT_EQ(temporary.parent_path(), folder.path());
+        EXPECT_EQ(contents(temporary), "first");
+        EXPECT_EQ(first.temporary(folder / "other"), "");
+        EXPECT_FALSE(fs::exists(folder / "0"));
+        EXPECT_FALSE(fs::exists(folder / "below/0"));
+        const std::array<OutputFiles*, 2> both = {&first, &second};
+        OutputFiles::commit(both);
+        for (int i = 0; i < count; ++i) {
+            EXPECT_EQ(contents(folder / std::to_string(i)), "first");
+            EXPECT_EQ(contents(folder / "below" / std::to_string(i)), "second");
+        }
+        EXPECT_EQ(folder.names().size(), count + 1u);
+        for (const auto& name : folder.names()) {
+            if (name != "below") fs::remove(folder / name);
+        }
+        fs::remove_all(folder / "below");
+        fs::create_directory(folder / "below");
+    }
+}
+
+TEST(OutputFiles, WithoutCommitNothingStays) {
+    const ScratchFolder folder;
+    {
+        OutputFiles files;
+        files.add(folder / "a", "x");
+        const auto unfinished = files.open(folder / "b");
+        unfinished->write("y");
+        OutputFiles moved = std::move(files);
+        EXPECT_EQ(folder.names().size(), 2u);
+        unfinished->commit();
+    }
+    EXPECT_TRUE(folder.names().empty());
+}
+
+TEST(OutputFiles, AnErrorLeavesTheOthersToAnotherCall) {
+    const ScratchFolder folder;
+    std::array<OutputFiles, 5> groups;
+    std::vector<OutputFiles*> all;
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+        groups[i].add(folder / std::to_string(i), "x");
+        all.push_back(&groups[i]);
+    }
+    fs::create_directory(folder / "2");
+    EXPECT_EQ(error_of([&] { OutputFiles::commit(all); }),
+              "cannot write '" + (folder / "2").string() + "': Is a directory");
+    EXPECT_EQ(contents(folder / "1"), "x");
+    EXPECT_FALSE(fs::exists(folder / "3"));
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+        EXPECT_EQ(error_of([&] { groups[i].commit(); }).empty(), i != 2);
+        EXPECT_EQ(fs::is_regular_file(folder / std::to_string(i)), i != 2);
+    }
 }
 
 }  // namespace sikku::output_file_test
