@@ -182,6 +182,17 @@ void apply(std::span<const Rule> rules, const S& settings, Format format) {
     }
 }
 
+/// Adds the names of the options that the rules refuse.
+void list_refused(std::span<const Rule> rules, const S& settings, Format format, std::set<std::string_view>& names) {
+    for (const Rule& rule : rules) {
+        if (!rule.kind(settings, format)) continue;
+        for (const Option<S>& row : draw_options()) {
+            const auto has = [&](const Options& options) { return options.have(row.info); };
+            if (std::any_of(rule.refused.begin(), rule.refused.end(), has)) names.insert(row.info.name);
+        }
+    }
+}
+
 void check_sizes(const S& settings, Format format) {
     const auto refuse = [&](const char* why) { refuse_option("dpi", fmt::format("{:g}", settings.paper.dpi), why); };
     const Page& page = settings.paper.page;
@@ -229,6 +240,27 @@ void check_draw_settings(const DrawSettings& settings, PrintFormat format) {
     }
     apply(growth_rules, settings, format);
     if (settings.time.generations) check_generations(settings, format);
+}
+
+std::set<std::string_view> refused_options(const DrawSettings& settings, PrintFormat format, bool is_spatial,
+                                           bool is_map) {
+    std::set<std::string_view> names;
+    const auto add = [&](std::span<const Rule> rules) { list_refused(rules, settings, format, names); };
+    add(relief_rules);
+    if (when::model(settings, format)) {
+        add(model_rules);
+    } else {
+        add(place_rules);
+        add(plot_rules);
+        add(product_rules);
+        add(growth_rules);
+    }
+    if (is_map) add(map_rules);
+    if (is_spatial) {
+        add(space_rules);
+        names.insert("relief");
+    }
+    return names;
 }
 
 void check_map_settings(const DrawSettings& settings) {
