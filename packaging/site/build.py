@@ -87,7 +87,7 @@ def in_process(program: drawing.Program, folder: Path, pattern: reading.Pattern)
 
 def pattern_pages(site: Site, all_patterns: dict[str, list[reading.Pattern]], made: dict[str, drawing.Made],
                   context: pages.Context, index: Index) -> None:  # fmt: skip
-    known = {each.name for group in all_patterns.values() for each in group}
+    known = {each.name: each.text for group in all_patterns.values() for each in group}
     for kind, group in all_patterns.items():
         for pattern in group:
             site.write(pages.file_of(f"{pattern.name}{pattern.path.suffix}"), pattern.text)
