@@ -13,6 +13,7 @@ import { optionOf, withOption } from "./options";
 import { pageOptions } from "./option_scopes";
 import { imageOf, isAbort } from "./pictures";
 import { CurveView } from "./play/curve_view";
+import { showSpline } from "./play/spline";
 import { readInk } from "./play/surface";
 import type { Made, Notes, Pixels } from "./protocol";
 import { readMelody, tickAfter, type Melody } from "./sound/melody";
@@ -263,6 +264,7 @@ class FilmDialog {
         this.dialog.body.append(canvas); // it takes its size from the page
         const curve = new CurveView(canvas, () => {});
         curve.show(melody);
+        await showSpline(this.studio, curve, melody, this.studio.store.work);
         const { raised } = readInk();
         return {
             width,

@@ -12,6 +12,7 @@ import { Player } from "./play/player";
 import { showReading } from "./play/reading_fields";
 import { remediesFor, withMovesDrawn } from "./play/remedies";
 import { RollView } from "./play/roll_view";
+import { showSpline } from "./play/spline";
 import { TransportBar } from "./play/transport_bar";
 import { VoiceList } from "./play/voice_list";
 import type { ArrangementRequest, Made, Notes, Opened } from "./protocol";
@@ -305,6 +306,7 @@ class PlayPanel implements Panel {
         this.origins.reset(melody, work.arrangement ? null : this.played(work));
         this.player.setMelody(melody);
         this.curve.show(melody);
+        void showSpline(this.studio, this.curve, melody, work, () => this.player.melody === melody);
         this.roll.show(melody);
         this.litNote = -1;
         const many = (count: number, one: string): string =>
