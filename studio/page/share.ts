@@ -143,6 +143,11 @@ export async function inspectLink(application: Application, link: string): Promi
         forget();
         return;
     }
+    const open = () => openContents(application, contents);
+    if (isBundled(application, contents)) {
+        forget();
+        return open();
+    }
     const { pattern } = contents;
     const arrangement = readArrangement(contents.page?.["arrangement"]);
     const whole = arrangement ? `${arrangement.text.trimEnd()}\n\n# The pattern beside it:\n${pattern.text}` : pattern.text;
@@ -173,26 +178,37 @@ export async function inspectLink(application: Application, link: string): Promi
         ...values(contents, pattern),
         ...leftOut(withheld),
     );
-    const open = button(
+    const openIt = button(
         "Open",
         () => {
             dialog.close();
-            const { draw = [], play = [], page = {} } = contents;
-            openPattern(application, { variant: "", settings: [], ...pattern }, page["panel"] ?? "map", {
-                draw: withOption(draw, "window", null),
-                play,
-                place: readPlace(page["place"]),
-                locked: readLocked(page["locked"]),
-                arrangement,
-            });
+            open();
         },
         { kind: "primary" },
     );
     dialog.footer.append(
         button("Discard", () => dialog.close()),
-        open,
+        openIt,
     );
     text.focus(); // not Open: whoever presses Enter has read nothing yet
+}
+
+function openContents(application: Application, { pattern, draw = [], play = [], page = {} }: Shared): void {
+    openPattern(application, { variant: "", settings: [], ...pattern }, page["panel"] ?? "map", {
+        draw: withOption(draw, "window", null),
+        play,
+        place: readPlace(page["place"]),
+        locked: readLocked(page["locked"]),
+        arrangement: readArrangement(page["arrangement"]),
+    });
+}
+
+/// True for bundled patterns and arrangements as they are, such as those of the links of the site: they need no questions.
+function isBundled({ patterns, arrangements }: Application, { pattern, draw = [], play = [], page = {} }: Shared): boolean {
+    if ((pattern.settings ?? []).length + draw.length + play.length > 0) return false;
+    const played = readArrangement(page["arrangement"]);
+    const isKnown = patterns.some(({ text }) => text === pattern.text);
+    return isKnown && (played === null || arrangements.some(({ text }) => text === played.text));
 }
 
 /// Commands for a plotter that the link wants to set. They are shown, and not used.

@@ -363,6 +363,18 @@ const tests = {
         await close(page);
     },
 
+    async "links to bundled patterns open at once, and others show their text first"() {
+        const { text } = ask({ do: "patterns" }).patterns.find(({ name }) => name === "lilac");
+        const bundled = linkOf({ pattern: { name: "lilac.lsys", text } });
+        const page = await visit({ fragment: `#${bundled}` });
+        await page.locator("#work-title", { hasText: "Lilac" }).waitFor();
+        assert.equal(await page.getByRole("dialog").count(), 0);
+        await page.waitForFunction(() => location.hash === "");
+        await page.evaluate((link) => { location.hash = link; }, linkOf({ pattern: { name: "a.lsys", text: `${text}\n` } }));
+        await page.getByRole("dialog", { name: "This link contains a pattern" }).waitFor();
+        await close(page);
+    },
+
     async "a link contains the arrangement"() {
         const page = await visit();
         await page.getByRole("tab", { name: "Gallery" }).click();
@@ -378,11 +390,13 @@ const tests = {
         assert.equal(JSON.parse(shared.page.arrangement).name, "canon.toml");
         await close(page);
 
-        const other = await visit({ fragment });
+        const edited = structuredClone(shared);
+        edited.page.arrangement = shared.page.arrangement.replace("Canon on Dekking's curve", "Canon of mine");
+        const other = await visit({ fragment: `#${linkOf(edited)}` });
         const dialog = other.getByRole("dialog", { name: "This link contains an arrangement" });
         await dialog.getByText("[[track]]").first().waitFor();
         await dialog.getByRole("button", { name: "Open", exact: true }).click();
-        await other.locator(".play-arranged", { hasText: "Canon on Dekking's curve" }).waitFor();
+        await other.locator(".play-arranged", { hasText: "Canon of mine" }).waitFor();
         await other.getByRole("button", { name: /^Undo/ }).click();
         await other.locator(".play-arranged").waitFor({ state: "hidden" });
         await other.getByRole("button", { name: /^Redo/ }).click();
@@ -566,7 +580,7 @@ const tests = {
     },
 };
 
-for (const [width, height] of [[320, 640], [390, 844], [720, 450], [1024, 768]]) {
+for (const [width, height] of [[320, 640], [390, 844], [560, 800], [720, 450], [960, 600], [1024, 768], [1100, 700]]) {
     tests[`the guide leaves room for the picture at ${width} × ${height}`] = async () => {
         const page = await visit({ viewport: { width, height } });
         for (const step of [null, ...Array(5).keys()]) {
