@@ -429,6 +429,8 @@ class Export {
     }
 }
 
-export function openExport(application: Application): void {
+/// @param format  is chosen: `draw pdf`, `play mid`; absent: the last one
+export function openExport(application: Application, format = chosen): void {
+    chosen = format;
     new Export(application);
 }

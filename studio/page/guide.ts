@@ -69,7 +69,7 @@ const steps: Step[] = [
     },
     {
         title: "The same word is a melody",
-        text: ["Play reads the line as notes: its direction is the pitch, and every step is a beat."],
+        text: ["Play reads the line as notes: its height is the pitch, and its length the duration."],
         task: "Open Play and press the round button.",
         panel: "",
         side: "text",
@@ -96,7 +96,11 @@ interface Aim {
     acts: (application: Application) => [label: string, act: () => void][];
 }
 
-const saving: [label: string, act: (application: Application) => void] = ["Save it…", (application) => openExport(application)];
+/// Opens Export with the format that fits the aim.
+const saving = (application: Application, format: string): [label: string, act: () => void] => [
+    "Save it…",
+    () => openExport(application, format),
+];
 
 function clickIn(selector: string, label: string): void {
     const found = [...document.querySelectorAll<HTMLElement>(`${selector} button`)];
@@ -110,7 +114,7 @@ const aims: Aim[] = [
         text: "Click between two dots to cross the lines or turn them back; the other sides follow. Choose the grid on the right.",
         acts: (application) => [
             ["Surprise me", () => clickIn("#panel-bench", "Random kolam")],
-            [saving[0], () => saving[1](application)],
+            saving(application, "draw pdf"),
         ],
     },
     {
@@ -119,7 +123,7 @@ const aims: Aim[] = [
         text: "Click a picture you like. Then change its colours and n on the left, or choose among Variations, and save it as a PDF of any size.",
         acts: (application) => [
             ["Variations", () => application.store.change({ panel: "variations" })],
-            [saving[0], () => saving[1](application)],
+            saving(application, "draw pdf"),
         ],
     },
     {
@@ -134,7 +138,7 @@ const aims: Aim[] = [
                 application.store.change({ panel: "gallery" });
                 showKind("melodies");
             }],
-            [saving[0], () => saving[1](application)],
+            saving(application, "play mid"),
         ],
     },
 ];

@@ -271,7 +271,18 @@ export class CurveView {
         if (!melody) return null;
         let nearest = 40 * 40;
         let found: number | null = null;
+        const shares = [0.1, 0.3, 0.5, 0.7, 0.9];
         for (let i = 0; i < melody.count; ++i) {
+            if (this.curves?.has(i)) {
+                for (const share of shares) {
+                    const [right, up] = this.curves.placeAt(i, share);
+                    const distance = (x - this.x(right)) ** 2 + (y - this.y(up)) ** 2;
+                    if (distance >= nearest) continue;
+                    nearest = distance;
+                    found = melody.onset[i] + share * melody.duration[i];
+                }
+                continue;
+            }
             const x0 = this.x(melody.path[4 * i]);
             const y0 = this.y(melody.path[4 * i + 1]);
             const dx = this.x(melody.path[4 * i + 2]) - x0;

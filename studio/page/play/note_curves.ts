@@ -2,7 +2,7 @@
 import type { Lines } from "../protocol";
 import type { Melody } from "../sound/melody";
 
-const most_points = 60_000; // beyond that, steps are too short for the curve to differ from them
+const most_points = 30_000; // beyond that, steps are too short for the curve to differ from them
 const parts = 8; // of the curve, for each step
 const least_share = 0.5; // of the notes that have a place on the curve
 const grain = 1e4; // places per step at which points are compared
