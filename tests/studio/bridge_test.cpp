@@ -197,6 +197,12 @@ TEST(Bridge, ListsOptionsThatDoNotApply) {
     // What another option needs or excludes follows it.
     EXPECT_EQ(unfit(koch, "svg", pairs({{"tile", "A4"}})).count("overlap"), 0U);
     EXPECT_EQ(unfit(koch, "svg", pairs({{"plotter", "true"}})).count("tile"), 1U);
+    EXPECT_EQ(lines.count("pen-width"), 1U);
+    EXPECT_EQ(unfit(koch, "svg", pairs({{"plotter", "true"}})).count("pen-width"), 0U);
+    // An option that is what a rule asks for is offered.
+    EXPECT_EQ(unfit(koch, "obj").count("relief"), 0U);
+    EXPECT_EQ(unfit(koch, "obj").count("base"), 1U);
+    EXPECT_EQ(unfit(koch, "obj", pairs({{"relief", ""}})).count("base"), 0U);
     EXPECT_EQ(unfit("axiom: {F+F+F+F}\n", "svg").count("swatch"), 0U);
     EXPECT_EQ(unfit("axiom: F&F\n", "png").count("light"), 0U);
     EXPECT_EQ(unfit("axiom: F&F\n", "svg").count("border"), 1U);
