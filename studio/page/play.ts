@@ -129,7 +129,8 @@ class PlayPanel implements Panel {
     private listen(): void {
         const { studio, curveCanvas } = this;
         studio.onOpened((facts, work) => {
-            if (!work.arrangement) this.change(facts, work);
+            // An arrangement does not depend on the text, but may have to wait for it after a reload.
+            if (!work.arrangement || this.isStale) this.change(facts, work);
         });
         studio.onChecked(() => this.sayWaiting());
         studio.store.subscribe((work, before) => {
