@@ -56,7 +56,7 @@ export function plainHelp(help: string, names: ReadonlySet<string>): string {
 /// The beginning of a help text, which says what the option does, and the rest, which may be empty.
 export function dividedHelp(help: string): [string, string] {
     if (help.length <= long_help) return [help, ""];
-    const end = /^.{20,}?(?=[;:] |, or )/.exec(help)?.[0].length ?? help.lastIndexOf(" ", long_help);
+    const end = /^.{8,}?(?=[;:] |, or )/.exec(help)?.[0].length ?? help.lastIndexOf(" ", long_help);
     return [help.slice(0, end), help.slice(end).replace(/^[;:,]?\s*/, "")];
 }
 

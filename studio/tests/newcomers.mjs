@@ -88,6 +88,11 @@ const tests = {
         await guideButton(page, "Surprise me").click();
         await page.waitForFunction((text) => document.querySelector(".cm-content").textContent !== text, before);
         await page.locator(".cm-content", { hasText: "// grid:" }).waitFor();
+        // The aim ends where it does not apply.
+        await page.getByRole("tab", { name: "Picture" }).click();
+        assert.ok(await guide(page).isVisible());
+        await page.getByRole("tab", { name: "Gallery" }).click();
+        await guide(page).waitFor({ state: "hidden" });
         await close(page);
 
         const poster = await visit();
