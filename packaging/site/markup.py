@@ -48,16 +48,18 @@ def compact_json(value: object) -> str:
     return json.dumps(value, ensure_ascii=False, separators=(",", ":"))
 
 
-def studio_link(name: str, text: str, variant: str = "", arrangement: tuple[str, str] | None = None) -> str:
+def studio_link(name: str, text: str, variant: str = "", arrangement: tuple[str, str] | None = None, panel: str = "") -> str:
     """The fragment of a link that the studio opens: see art/link/link.h. An arrangement has a name and a text, and is
-    played instead of the pattern."""
+    played instead of the pattern. `panel` is the view that is open, such as `play`."""
     pattern = {"name": name, "text": text}
     if variant:
         pattern["variant"] = variant
     work: dict[str, object] = {"pattern": pattern}
+    shown = {"panel": "play" if arrangement else panel}
     if arrangement:
-        played = compact_json({"name": arrangement[0], "text": arrangement[1]})
-        work["page"] = {"panel": "play", "arrangement": played}
+        shown["arrangement"] = compact_json({"name": arrangement[0], "text": arrangement[1]})
+    if shown["panel"]:
+        work["page"] = shown
     contents = compact_json(work).encode()
     press = zlib.compressobj(9, zlib.DEFLATED, -15)
     packed = press.compress(contents) + press.flush()

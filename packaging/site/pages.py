@@ -275,7 +275,7 @@ def section(name: str, *contents: str) -> str:
 def work_link(pattern: Pattern, known: dict[str, str]) -> str:
     """The link that opens a pattern or an arrangement, beside the pattern of its first track, in the studio."""
     if not pattern.is_arrangement:
-        return studio_link(f"{pattern.name}.lsys", pattern.text)
+        return studio_link(f"{pattern.name}.lsys", pattern.text, panel="play" if pattern.kind == "melodies" else "")
     bundled = (name for track in pattern.tracks if (name := str(track.get("pattern", ""))) in known)
     first = next(bundled, "")
     text = known[first] if first else "axiom: F\n"
@@ -427,8 +427,9 @@ def overview_page(patterns: dict[str, list[Pattern]], made: dict[str, Made], con
 
 
 def front_page(three: list[tuple[str, str, str]], example: str, example_picture: str, heard: tuple[Pattern, Made] | None,
-               begin: list[tuple[str, Pattern]], total: int, version: str, context: Context) -> str:  # fmt: skip
-    """`three` lists a file, the name of a pattern and a caption; `begin` lists patterns that open in the studio."""
+               begin: list[tuple[str, Pattern, str]], total: int, version: str, context: Context) -> str:  # fmt: skip
+    """`three` lists a file, the name of a pattern and a caption; `begin` lists patterns that open in the studio,
+    and the view that is open there."""
     path = "index.html"
     figures = "".join(
         f'<figure><a href="pattern/{name}.html">{image(context, path, file, caption, lazy=False)}</a>'
@@ -451,8 +452,8 @@ def front_page(three: list[tuple[str, str, str]], example: str, example_picture:
             f"{controls}</section>"
         )
     links = [
-        f'<a href="studio/index.html#{studio_link(f"{pattern.name}.lsys", pattern.text)}" data-studio>{escaped(text)}</a>'
-        for text, pattern in begin
+        f'<a href="studio/index.html#{studio_link(f"{pattern.name}.lsys", pattern.text, panel=panel)}" data-studio>{escaped(text)}</a>'
+        for text, pattern, panel in begin
     ]
     choices = f"<p>Or begin with {', '.join(links[:-1])} or {links[-1]}.</p>" if len(links) > 1 else ""
     width, height = context.sizes["studio.png"]
