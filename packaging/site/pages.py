@@ -276,10 +276,10 @@ def work_link(pattern: Pattern, known: dict[str, str]) -> str:
     """The link that opens a pattern or an arrangement, beside the pattern of its first track, in the studio."""
     if not pattern.is_arrangement:
         return studio_link(f"{pattern.name}.lsys", pattern.text, panel="play" if pattern.kind == "melodies" else "")
-    bundled = (name for track in pattern.tracks if (name := str(track.get("pattern", ""))) in known)
-    first = next(bundled, "")
-    text = known[first] if first else "axiom: F\n"
-    return studio_link(f"{first or 'line'}.lsys", text, arrangement=(f"{pattern.name}.toml", pattern.text))
+    names = [str(track.get("pattern", "")) for track in pattern.tracks]
+    first = next((name for name in [*names, "snake-kolam"] if name in known), "line")  # the studio begins with the kolam
+    text = known.get(first, "axiom: F\n")
+    return studio_link(f"{first}.lsys", text, arrangement=(f"{pattern.name}.toml", pattern.text))
 
 
 def pattern_page(pattern: Pattern, made: Made, group: list[Pattern], context: Context, known: dict[str, str]) -> str:
