@@ -86,7 +86,6 @@ export const makeMapPanel: MakePanel = (studio) => {
                 refusal.show(now.error, now.pattern);
                 // Patterns of the folder words are read rather than drawn.
                 if (/no visible line/.test(messageOf(now.error))) {
-                    problem.replaceChildren("This pattern draws no line, polygon or disc. Its word is the result:");
                     word.show(now.pattern);
                 } else {
                     word.hide();

@@ -18,7 +18,9 @@ export function makeMapWord(studio: Studio): MapWord {
     const head = element("h3", {});
     const text = element("p", { class: "map-word-text mono", tabindex: 0, "aria-label": "Word" });
     const toSteps = button("All steps", () => studio.store.change({ panel: "steps" }));
-    const place = element("div", { class: "map-word", hidden: true }, element("div", { class: "map-word-head" }, head, toSteps), text);
+    const why = element("p", { class: "map-word-why", role: "status" }, "This pattern draws no line, polygon or disc.");
+    const top = element("div", { class: "map-word-head" }, head, toSteps);
+    const place = element("div", { class: "map-word", hidden: true }, top, text, why);
     let shown: Work["pattern"] | null = null;
 
     async function derive(pattern: Work["pattern"]): Promise<void> {
