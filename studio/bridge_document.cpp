@@ -204,9 +204,14 @@ bool is_short(const Document& document, std::int64_t steps, double most, const M
 /// shorter derivation has other steps.
 std::int64_t largest_map(const Document& document, double most, const Monitor& monitor) {
     if (document.grammar().has_schedule()) return -1;
-    MapDerivation derivation(document.grammar(), {most, std::numeric_limits<double>::infinity()}, monitor);
+    // Without a limit of edges, which is compared with all steps at once before the first is made.
+    constexpr double most_bytes = 1e9;
+    MapDerivation derivation(document.grammar(), {std::numeric_limits<double>::infinity(), most_bytes}, monitor);
+    double edges = 0;
     try {
         while (derivation.next()) {
+            edges += static_cast<double>(derivation.map().edges().size());
+            if (edges > most) return derivation.steps() - 1;
         }
     } catch (const Stopped&) {  // the steps that were made in time fit
     } catch (const BudgetError&) {
@@ -217,7 +222,8 @@ std::int64_t largest_map(const Document& document, double most, const Monitor& m
 }  // namespace
 
 Json answer_affordable(const Json& request, const Monitor& monitor) {
-    constexpr double most = 3e7;  // nodes that are drawn within a few seconds
+    constexpr double most = 3e7;          // nodes that are drawn within a few seconds
+    constexpr double nodes_of_edge = 10;  // of maps
     const Document document = document_of(request);
     const Grammar& grammar = document.grammar();
     const auto now = static_cast<std::int64_t>(grammar.steps());
@@ -226,7 +232,7 @@ Json answer_affordable(const Json& request, const Monitor& monitor) {
     if (expected) {
         fits = largest_affordable(grammar, true, most);
     } else if (document.map()) {
-        fits = largest_map(document, most, monitor);
+        fits = largest_map(document, most / nodes_of_edge, monitor);
     } else {
         try {
             while (fits < now && is_short(document, fits + 1, most, monitor)) ++fits;
