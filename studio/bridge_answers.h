@@ -29,6 +29,10 @@ Json json_of(const std::vector<Diagnostic>& diagnostics);
 Json answer_open(const Json& request, const Monitor& monitor);
 Json answer_pixels(const Json& request, const Monitor& monitor, std::string& bytes);
 Json answer_affordable(const Json& request, const Monitor& monitor);
+/// Options of prints that the format, the drawing or other options exclude, or that have no effect.
+Json answer_unfit(const Json& request);
+/// Lines as pairs of doubles; those of splines are control polygons.
+Json answer_lines(const Json& request, const Monitor& monitor, std::string& bytes);
 Json answer_notes(const Json& request, const Monitor& monitor, std::string& bytes);
 Json answer_arrangements();
 /// A score of an arrangement; its patterns are bundled, or in its text.

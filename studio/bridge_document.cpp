@@ -2,6 +2,7 @@
 #include "art/analysis.h"
 #include "art/prints.h"
 #include "art/product/draw_settings.h"
+#include "art/product/unused_options.h"
 #include "art/provenance/provenance.h"
 #include "engine/base/text.h"
 #include "engine/check.h"
@@ -9,6 +10,7 @@
 #include "engine/derivation/origins.h"
 #include "engine/import/import.h"
 #include "engine/language/foreign_text.h"
+#include "engine/map/map_step.h"
 #include "engine/measure/extent.h"
 #include "music/scale/scale.h"
 #include "music/score/midi_texts.h"
@@ -23,7 +25,11 @@
 #include <cmath>
 #include <deque>
 #include <fstream>
+#include <iterator>
+#include <limits>
+#include <set>
 #include <utility>
+#include <variant>
 
 namespace sikku {
 
@@ -140,6 +146,8 @@ Json productions_of(const Document& document) {
 void add_measures(const Document& document, const Monitor& monitor, Json& answer) {
     const QuickMeasures measures = measure_quickly(document, monitor);
     answer["cost"] = {{"symbols", measures.symbols},
+                      {"cells", measures.cells},
+                      {"edges", measures.edges},
                       {"segments", measures.segments},
                       {"is_derivable", measures.is_derivable},
                       {"most", measures.most}};
@@ -192,10 +200,30 @@ bool is_short(const Document& document, std::int64_t steps, double most, const M
     }
 }
 
+/// The largest number of steps of a map whose edges are at most `most` together; -1 with a schedule, by which a
+/// shorter derivation has other steps.
+std::int64_t largest_map(const Document& document, double most, const Monitor& monitor) {
+    if (document.grammar().has_schedule()) return -1;
+    // Without a limit of edges, which is compared with all steps at once before the first is made.
+    constexpr double most_bytes = 1e9;
+    MapDerivation derivation(document.grammar(), {std::numeric_limits<double>::infinity(), most_bytes}, monitor);
+    double edges = 0;
+    try {
+        while (derivation.next()) {
+            edges += static_cast<double>(derivation.map().edges().size());
+            if (edges > most) return derivation.steps() - 1;
+        }
+    } catch (const Stopped&) {  // the steps that were made in time fit
+    } catch (const BudgetError&) {
+    }
+    return derivation.steps();
+}
+
 }  // namespace
 
 Json answer_affordable(const Json& request, const Monitor& monitor) {
-    constexpr double most = 3e7;  // nodes that are drawn within a few seconds
+    constexpr double most = 3e7;          // nodes that are drawn within a few seconds
+    constexpr double nodes_of_edge = 10;  // of maps
     const Document document = document_of(request);
     const Grammar& grammar = document.grammar();
     const auto now = static_cast<std::int64_t>(grammar.steps());
@@ -203,7 +231,9 @@ Json answer_affordable(const Json& request, const Monitor& monitor) {
     const auto expected = document.map() ? std::nullopt : estimate(grammar, true);
     if (expected) {
         fits = largest_affordable(grammar, true, most);
-    } else if (!document.map()) {
+    } else if (document.map()) {
+        fits = largest_map(document, most / nodes_of_edge, monitor);
+    } else {
         try {
             while (fits < now && is_short(document, fits + 1, most, monitor)) ++fits;
         } catch (const Stopped&) {  // the lengths that were derived in time fit
@@ -399,6 +429,34 @@ Json answer_show(const Json& request, const std::string& file) {
     }
     if (!found) throw std::runtime_error(printable(name) + ": this file contains no pattern");
     return {{"text", found->pattern}, {"made", found->made}};
+}
+
+Json answer_unfit(const Json& request) {
+    const auto format = named_format(text_of(request, "format"));
+    if (!format) throw BadRequest("unknown format");
+    const Document document = document_of(request);
+    const OptionValues all = options_of(request);
+    OptionValues own;  // without keys and defines of the pattern
+    std::copy_if(all.begin(), all.end(), std::back_inserter(own),
+                 [](const OptionValue& value) { return find_option(prints().options(), value.name) != nullptr; });
+    const DrawSettings settings = read_draw_settings(own);
+    const bool is_map = document.map() != nullptr;
+    std::set<std::string> names = options_without_effect(document, settings, *format);
+    for (const std::string_view name : refused_options(settings, *format, document.grammar().is_spatial(), is_map)) {
+        names.emplace(name);
+    }
+    return {{"options", names}};
+}
+
+Json answer_lines(const Json& request, const Monitor& monitor, std::string& bytes) {
+    constexpr double budget = 3e6;
+    constexpr std::size_t most_points = 400'000;
+    const DrawnLines lines = drawn_lines(document_of(request), budget, monitor);
+    const auto* plane = std::get_if<Polylines<glm::dvec2>>(&lines);
+    if (!plane) throw BadRequest("lines in space have no picture in the plane");
+    if (plane->points.size() > most_points) throw BudgetError(fmt::format("more than {} points", most_points));
+    bytes.assign(reinterpret_cast<const char*>(plane->points.data()), plane->points.size() * sizeof(glm::dvec2));
+    return {{"begins", plane->begins}};
 }
 
 namespace {

@@ -87,11 +87,14 @@ Json answer_notes(const Json& request, const Monitor& monitor, std::string& byte
     }
     Json changes = Json::array();
     for (const SectionChange& change : list.changes) {
-        changes.push_back({{"onset", change.onset}, {"tempo", change.to.tempo}});
+        const Meter& meter = change.to.meter;
+        changes.push_back(
+            {{"onset", change.onset}, {"tempo", change.to.tempo}, {"beats", meter.beats}, {"unit", meter.unit}});
     }
-    return {{"count", list.notes.size()}, {"glides", glides},          {"end", list.end},
-            {"tempo", list.tempo},        {"beats", list.meter.beats}, {"unit", list.meter.unit},
-            {"ticks", ticks_per_quarter}, {"parts", std::move(parts)}, {"changes", std::move(changes)}};
+    return {{"count", list.notes.size()},   {"glides", glides},           {"end", list.end},
+            {"tempo", list.tempo},          {"beats", list.meter.beats},  {"unit", list.meter.unit},
+            {"upbeat", list.upbeat},        {"ticks", ticks_per_quarter}, {"parts", std::move(parts)},
+            {"changes", std::move(changes)}};
 }
 
 Json answer_arrangements() {

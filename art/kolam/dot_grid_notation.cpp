@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -164,6 +165,92 @@ std::optional<TextInDots> parse_text_in_dots(std::string_view given) {
 enum class Sort : std::uint8_t { unknown, straight, interlaced };
 
 constexpr std::string_view fill_word = "fill";
+constexpr std::string_view until_word = "until";  // follows the last row, as in `7 dots 1 until`
+
+/// Tamil words for grids and the words that they stand for; numbers as the names of grids spell them.
+constexpr std::pair<std::string_view, std::string_view> tamil_words[] = {
+    {"நேர்", "ner"},
+    {"நேர்ப்புள்ளி", "ner"},
+    {"நேர்புள்ளி", "ner"},
+    {"இடுக்கு", "idukku"},
+    {"இடுக்குப்", "idukku"},
+    {"இடுக்குப்புள்ளி", "idukku"},
+    {"இடுக்குபுள்ளி", "idukku"},
+    {"சந்து", "sandhu"},
+    {"சந்துப்", "sandhu"},
+    {"சந்துப்புள்ளி", "sandhu"},
+    {"சந்துபுள்ளி", "sandhu"},
+    {"ஊடு", "oodu"},
+    {"ஊடுப்", "oodu"},
+    {"ஊடுபுள்ளி", "oodu"},
+    {"ஊடுப்புள்ளி", "oodu"},
+    {"புள்ளி", "dots"},
+    {"புள்ளிகள்", "dots"},
+    {"புள்ளியில்", "dots"},
+    {"கோலம்", "kolam"},
+    {"வரிசை", "rows"},
+    {"வரிசைகள்", "rows"},
+    {"முதல்", "to"},
+    {"வரை", until_word},
+    {"ஒன்று", "1"},
+    {"ஒரு", "1"},
+    {"இரண்டு", "2"},
+    {"மூன்று", "3"},
+    {"நான்கு", "4"},
+    {"ஐந்து", "5"},
+    {"ஆறு", "6"},
+    {"ஏழு", "7"},
+    {"எட்டு", "8"},
+    {"ஒன்பது", "9"},
+    {"பத்து", "10"},
+    {"பதினொன்று", "11"},
+    {"பன்னிரண்டு", "12"},
+    {"பதிமூன்று", "13"},
+    {"பதின்மூன்று", "13"},
+    {"பதினான்கு", "14"},
+    {"பதினைந்து", "15"},
+    {"பதினாறு", "16"},
+    {"பதினேழு", "17"},
+    {"பதினெட்டு", "18"},
+    {"பத்தொன்பது", "19"},
+    {"இருபது", "20"},
+    {"இருபத்தொன்று", "21"},
+    {"இருபத்தைந்து", "25"},
+};
+
+bool is_beyond_ascii(char byte) {
+    return static_cast<unsigned char>(byte) >= 0x80;
+}
+
+/// Replaces Tamil words and digits; words that are not known stay.
+std::string without_tamil(std::string_view text) {
+    constexpr std::string_view zero = "௦";  // the digits follow one another, and differ in their last byte
+    std::string result;
+    for (std::size_t at = 0; at < text.size();) {
+        if (!is_beyond_ascii(text[at])) {
+            result += text[at++];
+            continue;
+        }
+        const std::string_view rest = text.substr(at);
+        const auto digit = [&](std::string_view bytes) {
+            return bytes.size() >= zero.size() && bytes.starts_with(zero.substr(0, 2)) && bytes[2] >= zero[2] &&
+                   bytes[2] < zero[2] + 10;
+        };
+        if (digit(rest)) {
+            result += static_cast<char>('0' + (rest[2] - zero[2]));
+            at += zero.size();
+            continue;
+        }
+        std::size_t end = at;
+        while (end < text.size() && is_beyond_ascii(text[end]) && !digit(text.substr(end))) ++end;
+        const std::string_view word = text.substr(at, end - at);
+        const auto known = std::find_if(std::begin(tamil_words), std::end(tamil_words),
+                                        [word](const auto& pair) { return pair.first == word; });
+        result += known != std::end(tamil_words) ? fmt::format(" {} ", known->second) : std::string(word);
+        at = end;
+    }
+    return result;
+}
 
 /// A number of dots, and a number of rows after an `x`, 0 without one.
 struct Item {
@@ -177,7 +264,7 @@ class NotationReader {
 public:
     explicit NotationReader(std::string_view given) : given_(given), text_(lower_case(given)) {
         for (const char* dash : {"–", "—", "−"}) text_ = replaced(text_, dash, '-');
-        text_ = replaced(text_, "×", 'x');
+        text_ = without_tamil(replaced(text_, "×", 'x'));
     }
     /// Accepts the word `fill` as a number of dots or rows, 0.
     NotationReader& with_fill() {
@@ -203,7 +290,8 @@ private:
             return separate(byte);
         }
         const std::size_t begin = at_;
-        while (at_ < text_.size() && text_[at_] >= 'a' && text_[at_] <= 'z') ++at_;
+        const auto is_letter = [](char letter) { return (letter >= 'a' && letter <= 'z') || is_beyond_ascii(letter); };
+        while (at_ < text_.size() && is_letter(text_[at_])) ++at_;
         if (begin == at_) refuse(given_);
         read_word(std::string_view(text_).substr(begin, at_ - begin));
     }
@@ -218,6 +306,8 @@ private:
             put_number(0);
         } else if (word == "to") {
             separate('t');
+        } else if (word == until_word) {
+            if (items_.empty() || separator_ != 0 || is_times_ || items_.back().separator != 't') refuse(given_);
         } else if (is_one_of({"ner", "neer", "straight", "square", "parallel"})) {
             set_sort(Sort::straight);
         } else if (is_one_of({"idukku", "sandhu", "sandu", "udu", "oodu", "idai", "interlaced", "interlocked",
@@ -226,7 +316,7 @@ private:
         } else if (!is_one_of(
                        {"pulli", "pullis", "pulligal", "dot", "dots", "grid", "kolam", "rows", "row", "lines"})) {
             refuse(given_, fmt::format("unknown word '{}'; the words for grids are ner (straight) and idukku "
-                                       "(interlaced)",
+                                       "(interlaced), நேர் and இடுக்கு in Tamil",
                                        printable(word, 40)));
         }
     }
@@ -252,10 +342,17 @@ private:
             items_.back().rows = number;
             is_times_ = false;
         } else {
+            if (!items_.empty() && separator_ == 0 && is_before_until()) separator_ = 't';
             if (!items_.empty() && separator_ == 0) refuse(given_);
             items_.push_back({number, 0, separator_});
             separator_ = 0;
         }
+    }
+
+    /// True if the next word is `until`.
+    bool is_before_until() {
+        skip();
+        return std::string_view(text_).substr(at_).starts_with(until_word);
     }
 
     std::string_view given_;

@@ -182,6 +182,28 @@ void apply(std::span<const Rule> rules, const S& settings, Format format) {
     }
 }
 
+/// The settings with an option in addition, if it is a flag or needs no value: such an option may be what the rules
+/// ask for, as `plotter` is.
+S with_option(const S& settings, const Option<S>& row) {
+    const bool is_flag = row.info.kind == OptionKind::flag;
+    if (!is_flag && !row.info.value.starts_with('[')) return settings;
+    S more = settings;
+    try {
+        row.set(more, is_flag ? "true" : "");
+    } catch (const SettingError&) {
+        return settings;
+    }
+    return more;
+}
+
+/// True if one of the rules refuses an option.
+bool is_refused(std::span<const Rule> rules, const OptionInfo& option, const S& settings, Format format) {
+    return std::any_of(rules.begin(), rules.end(), [&](const Rule& rule) {
+        const auto has = [&](const Options& options) { return options.have(option); };
+        return std::any_of(rule.refused.begin(), rule.refused.end(), has) && rule.kind(settings, format);
+    });
+}
+
 void check_sizes(const S& settings, Format format) {
     const auto refuse = [&](const char* why) { refuse_option("dpi", fmt::format("{:g}", settings.paper.dpi), why); };
     const Page& page = settings.paper.page;
@@ -229,6 +251,23 @@ void check_draw_settings(const DrawSettings& settings, PrintFormat format) {
     }
     apply(growth_rules, settings, format);
     if (settings.time.generations) check_generations(settings, format);
+}
+
+std::set<std::string_view> refused_options(const DrawSettings& settings, PrintFormat format, bool is_spatial,
+                                           bool is_map) {
+    std::set<std::string_view> names;
+    for (const Option<S>& row : draw_options()) {
+        const S with = with_option(settings, row);
+        const auto refused = [&](std::span<const Rule> rules) { return is_refused(rules, row.info, with, format); };
+        const bool is_excluded = when::model(with, format) ? refused(model_rules)
+                                                           : refused(place_rules) || refused(plot_rules) ||
+                                                                 refused(product_rules) || refused(growth_rules);
+        if (is_excluded || refused(relief_rules) || (is_map && refused(map_rules)) ||
+            (is_spatial && (refused(space_rules) || row.info.name == "relief"))) {
+            names.insert(row.info.name);
+        }
+    }
+    return names;
 }
 
 void check_map_settings(const DrawSettings& settings) {

@@ -16,8 +16,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -137,5 +139,10 @@ void check_draw_settings(const DrawSettings& settings, PrintFormat format);
 /// The same for a map, and for a drawing in space.
 void check_map_settings(const DrawSettings& settings);
 void check_space_settings(const DrawSettings& settings, PrintFormat format);
+
+/// Names of the options that these checks would refuse beside the settings, because of the format, of the drawing, or
+/// of another setting that they need or exclude.
+std::set<std::string_view> refused_options(const DrawSettings& settings, PrintFormat format, bool is_spatial,
+                                           bool is_map);
 
 }  // namespace sikku

@@ -162,4 +162,27 @@ void warn_of_unused(const GivenOptions& given, const DrawSettings& settings, con
     }
 }
 
+std::set<std::string> options_without_effect(const Document& document, const DrawSettings& settings,
+                                             PrintFormat format) {
+    const Grammar& grammar = document.grammar();
+    const bool is_spatial = grammar.is_spatial();
+    std::set<std::string> names;
+    for (const Unused& one : by_format({}, settings, read_print_style(document, settings), format, is_spatial)) {
+        if (one.is_unused) names.emplace(one.option);
+    }
+    if (!is_spatial) {
+        for (const Option<DrawSettings>& row : draw_options()) {
+            if (row.info.scope == Scope::space) names.emplace(row.info.name);
+        }
+    }
+    const auto makes_polygon = [](Action action) {
+        return action == Action::polygon_begin || action == Action::edge_begin;
+    };
+    if (!document.map() && !grammar.leads_to(makes_polygon)) {
+        names.insert({"fill-page", "swatch", "tile-colours", "tile-edges", "decorate", "groove", "name-tiles", "kerf",
+                      "divide"});
+    }
+    return names;
+}
+
 }  // namespace sikku

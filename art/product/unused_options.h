@@ -5,6 +5,7 @@
 #include "art/writer/draw_options.h"
 #include "engine/base/option.h"
 #include "engine/interpreter.h"
+#include "engine/language/document.h"
 #include "engine/language/grammar.h"
 
 #include <set>
@@ -35,5 +36,10 @@ Contents contents_in_space(const Grammar& grammar);
 /// @param report  of the drawing, if one was made; a default one otherwise
 void warn_of_unused(const GivenOptions& given, const DrawSettings& settings, const Style& style, PrintFormat format,
                     bool is_spatial, const DrawReport& report, Made& made);
+
+/// Names of the options that have no effect on prints of a document in a format, as far as this is known before it is
+/// drawn. @throws PatternError
+std::set<std::string> options_without_effect(const Document& document, const DrawSettings& settings,
+                                             PrintFormat format);
 
 }  // namespace sikku

@@ -50,10 +50,10 @@ FRONT = (
 # The melody of the front page, and the patterns that its links open in the studio.
 HEARD = "hilbert-kalyani"
 BEGIN = (
-    ("a kolam for the door", "kolam-7x7-3aamyxrw"),
-    ("a poster", "penrose-rhombs"),
-    ("a plant", "fern"),
-    ("a melody", HEARD),
+    ("a kolam for the door", "kolam-7x7-3aamyxrw", "bench"),
+    ("a poster", "penrose-rhombs", "map"),
+    ("a plant", "fern", "map"),
+    ("a melody", HEARD, "play"),
 )
 
 
@@ -87,7 +87,7 @@ def in_process(program: drawing.Program, folder: Path, pattern: reading.Pattern)
 
 def pattern_pages(site: Site, all_patterns: dict[str, list[reading.Pattern]], made: dict[str, drawing.Made],
                   context: pages.Context, index: Index) -> None:  # fmt: skip
-    known = {each.name for group in all_patterns.values() for each in group}
+    known = {each.name: each.text for group in all_patterns.values() for each in group}
     for kind, group in all_patterns.items():
         for pattern in group:
             site.write(pages.file_of(f"{pattern.name}{pattern.path.suffix}"), pattern.text)
@@ -266,7 +266,7 @@ def front(site: Site, program: drawing.Program, all_patterns: dict[str, list[rea
     context.sizes["studio.png"] = png.size_of(studio)
     total = sum(len(group) for group in all_patterns.values())
     heard = (by_name[HEARD], made[HEARD]) if HEARD in by_name else None
-    begin = [(text, by_name[name]) for text, name in BEGIN if name in by_name]
+    begin = [(text, by_name[name], panel) for text, name, panel in BEGIN if name in by_name]
     site.write("index.html", pages.front_page(three, example_text, "front_example.svg", heard, begin, total, version, context))
 
 

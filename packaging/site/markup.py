@@ -44,12 +44,23 @@ def relative(target: str, page: str) -> str:
     return posixpath.relpath(path, posixpath.dirname(page) or ".") + mark + anchor
 
 
-def studio_link(name: str, text: str, variant: str = "") -> str:
-    """The fragment of a link that the studio opens: see art/link/link.h."""
+def compact_json(value: object) -> str:
+    return json.dumps(value, ensure_ascii=False, separators=(",", ":"))
+
+
+def studio_link(name: str, text: str, variant: str = "", arrangement: tuple[str, str] | None = None, panel: str = "") -> str:
+    """The fragment of a link that the studio opens: see art/link/link.h. An arrangement has a name and a text, and is
+    played instead of the pattern. `panel` is the view that is open, such as `play`."""
     pattern = {"name": name, "text": text}
     if variant:
         pattern["variant"] = variant
-    contents = json.dumps({"pattern": pattern}, ensure_ascii=False, separators=(",", ":")).encode()
+    work: dict[str, object] = {"pattern": pattern}
+    shown = {"panel": "play" if arrangement else panel}
+    if arrangement:
+        shown["arrangement"] = compact_json({"name": arrangement[0], "text": arrangement[1]})
+    if shown["panel"]:
+        work["page"] = shown
+    contents = compact_json(work).encode()
     press = zlib.compressobj(9, zlib.DEFLATED, -15)
     packed = press.compress(contents) + press.flush()
     return "sikku1." + base64.urlsafe_b64encode(packed).decode().rstrip("=")

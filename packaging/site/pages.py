@@ -152,7 +152,7 @@ def is_brief(pattern: Pattern) -> bool:
     return len(words) <= 7 and max(map(len, words)) <= 120 and sum(map(len, words)) <= 320 and len(pattern.description) <= 260
 
 
-def arrangement_system(pattern: Pattern, known: set[str]) -> str:
+def arrangement_system(pattern: Pattern, known: dict[str, str]) -> str:
     rows = ""
     for number, track in enumerate(pattern.tracks, 1):
         name = str(track.get("pattern", ""))
@@ -272,15 +272,23 @@ def section(name: str, *contents: str) -> str:
     return f'<section class="part" aria-labelledby="{anchor}"><h2 id="{anchor}">{name}</h2>{"".join(contents)}</section>'
 
 
-def pattern_page(pattern: Pattern, made: Made, group: list[Pattern], context: Context, known: set[str]) -> str:
+def work_link(pattern: Pattern, known: dict[str, str]) -> str:
+    """The link that opens a pattern or an arrangement, beside the pattern of its first track, in the studio."""
+    if not pattern.is_arrangement:
+        return studio_link(f"{pattern.name}.lsys", pattern.text, panel="play" if pattern.kind == "melodies" else "")
+    names = [str(track.get("pattern", "")) for track in pattern.tracks]
+    first = next((name for name in [*names, "snake-kolam"] if name in known), "line")  # the studio begins with the kolam
+    text = known.get(first, "axiom: F\n")
+    return studio_link(f"{first}.lsys", text, arrangement=(f"{pattern.name}.toml", pattern.text))
+
+
+def pattern_page(pattern: Pattern, made: Made, group: list[Pattern], context: Context, known: dict[str, str]) -> str:
     path = address_of(pattern)
     title, kind = plain(pattern.title), kind_name(pattern.kind)
     description = pattern.description
     source = pattern.source
-    studio = relative("studio/index.html", path) + "#" + studio_link(f"{pattern.name}.lsys", pattern.text)
-    buttons = ""
-    if not pattern.is_arrangement:
-        buttons = f'<p class="buttons"><a class="button primary" href="{escaped(studio)}">Open in the studio</a></p>'
+    studio = relative("studio/index.html", path) + "#" + work_link(pattern, known)
+    buttons = f'<p class="buttons"><a class="button primary" href="{escaped(studio)}">Open in the studio</a></p>'
     plate = ""
     if made.picture and not pattern.is_arrangement:
         plate = f'<figure class="plate">{image(context, path, made.picture, title, lazy=False)}</figure>'
@@ -419,8 +427,9 @@ def overview_page(patterns: dict[str, list[Pattern]], made: dict[str, Made], con
 
 
 def front_page(three: list[tuple[str, str, str]], example: str, example_picture: str, heard: tuple[Pattern, Made] | None,
-               begin: list[tuple[str, Pattern]], total: int, version: str, context: Context) -> str:  # fmt: skip
-    """`three` lists a file, the name of a pattern and a caption; `begin` lists patterns that open in the studio."""
+               begin: list[tuple[str, Pattern, str]], total: int, version: str, context: Context) -> str:  # fmt: skip
+    """`three` lists a file, the name of a pattern and a caption; `begin` lists patterns that open in the studio,
+    and the view that is open there."""
     path = "index.html"
     figures = "".join(
         f'<figure><a href="pattern/{name}.html">{image(context, path, file, caption, lazy=False)}</a>'
@@ -443,8 +452,8 @@ def front_page(three: list[tuple[str, str, str]], example: str, example_picture:
             f"{controls}</section>"
         )
     links = [
-        f'<a href="studio/index.html#{studio_link(f"{pattern.name}.lsys", pattern.text)}" data-studio>{escaped(text)}</a>'
-        for text, pattern in begin
+        f'<a href="studio/index.html#{studio_link(f"{pattern.name}.lsys", pattern.text, panel=panel)}" data-studio>{escaped(text)}</a>'
+        for text, pattern, panel in begin
     ]
     choices = f"<p>Or begin with {', '.join(links[:-1])} or {links[-1]}.</p>" if len(links) > 1 else ""
     width, height = context.sizes["studio.png"]

@@ -58,9 +58,13 @@ std::string extent_text(const Measurement& measurement, bool spline) {
     return {};
 }
 
-std::string map_text(const Document& document, const Monitor& monitor) {
+MapMeasurement measured_map(const Document& document, const Monitor& monitor) {
     const Map map = derive_map(document.grammar(), {most_map_edges, most_map_edges * 1e4}, monitor);
-    const MapMeasurement size = measure_map(map, *document.map(), document.grammar().steps());
+    return measure_map(map, *document.map(), document.grammar().steps());
+}
+
+std::string map_text(const Document& document, const Monitor& monitor) {
+    const MapMeasurement size = measured_map(document, monitor);
     return counted(size.cells, "cell") + ", " + counted(size.edges, "edge");
 }
 
@@ -78,6 +82,12 @@ QuickMeasures measure_quickly(const Document& document, const Monitor& monitor) 
     QuickMeasures measures;
     const Grammar& grammar = document.grammar();
     try {
+        if (document.map()) {
+            const MapMeasurement size = measured_map(document, monitor);
+            measures.cells = fmt::format("{}", size.cells);
+            measures.edges = fmt::format("{}", size.edges);
+            return measures;
+        }
         const auto expected = estimate(grammar, true);
         measures.is_derivable = !expected || expected->nodes <= drawing_budget;
         if (!measures.is_derivable) {

@@ -12,7 +12,9 @@ namespace sikku {
 
 /// Sizes of a word or a map. The texts are numbers of any length: `1365`, `about 10^24081`; empty: unknown.
 struct QuickMeasures {
-    std::string symbols;
+    std::string symbols;   ///< of a word
+    std::string cells;     ///< of a map
+    std::string edges;     ///< of a map
     std::string segments;  ///< drawn; of splines, moves
     /// Bounds of the drawing in turtle steps: x0, y0, x1, y1.
     std::optional<std::array<std::string, 4>> extent;
@@ -20,7 +22,8 @@ struct QuickMeasures {
     std::string most;          ///< if it is not: the largest derivation length that is
 };
 
-/// Measures a pattern in at most 3 million nodes; sizes that need more stay unknown. Maps are not measured.
+/// Measures a pattern in at most 3 million nodes, or a map whose steps have at most 100,000 edges together; sizes
+/// that need more stay unknown.
 /// @throws Stopped
 QuickMeasures measure_quickly(const Document& document, const Monitor& monitor = {});
 

@@ -1,4 +1,5 @@
 // Arrangements: several patterns played as one piece. The work keeps its pattern; the view Play plays the arrangement.
+import { leave } from "./back";
 import type { Studio } from "./context";
 import type { ArrangementRequest } from "./protocol";
 
@@ -15,6 +16,7 @@ export function titleOfArrangement({ name, text }: ArrangementRequest): string {
 /// Plays an arrangement instead of the pattern, from now on.
 export function openArrangement(studio: Studio, name: string, text: string): void {
     const arrangement = { name, text };
+    leave(studio.store.work);
     studio.store.change({ arrangement, play: [], panel: "play" });
     studio.say(`Opened ${titleOfArrangement(arrangement)}. Undo returns to the pattern.`);
 }

@@ -1,22 +1,11 @@
-// The colours of stroke and ground, and the parts of the stroke.
+// The colours of stroke and ground.
 import type { Application } from "./application";
 import { element } from "./elements";
 import { plainGround } from "./floors";
 import { optionOf } from "./options";
 import { valueInText } from "./pattern_text";
 import type { Opened } from "./protocol";
-
-/// The parts of a value of `stroke:`, such as `0.4mm navy`.
-export function splitStroke(value: string): { width: string; unit: string; rest: string } {
-    const parts = /^\s*(\d*\.?\d+)\s*(mm|cm|in|pt|px|step)?\s*(.*)$/.exec(value);
-    return parts
-        ? { width: parts[1]!, unit: parts[2] ?? "mm", rest: parts[3]! }
-        : { width: "", unit: "mm", rest: value.trim() };
-}
-
-export function joinedStroke(width: string, unit: string, rest: string): string {
-    return `${width}${unit === "step" ? " step" : unit} ${rest}`.trim();
-}
+import { joinedStroke, splitStroke } from "./stroke";
 
 // A CSS colour as #rrggbb; null if it is not a colour.
 function plain(colour: string): string | null {

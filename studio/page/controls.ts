@@ -2,7 +2,7 @@
 // separately from the text, like `--set` and `-n` of the program.
 import { angleAt, degreesOf, readAngle, type Angle } from "./angles";
 import type { Application } from "./application";
-import { joinedStroke, makeColours, splitStroke } from "./colours";
+import { makeColours } from "./colours";
 import { button, byId, element } from "./elements";
 import { whatIsN } from "./explain";
 import { count, counted, rounded, span } from "./numbers_shown";
@@ -11,6 +11,7 @@ import { valueInText, withSettings } from "./pattern_text";
 import type { Opened } from "./protocol";
 import { makeSeed } from "./seed";
 import { makeSlider, type Slider } from "./slider";
+import { joinedStroke, splitStroke } from "./stroke";
 
 interface Row {
     slider: Slider;
@@ -292,9 +293,10 @@ export class Controls {
         const { cost, extent } = facts;
         const parts: string[] = [];
         if (cost.symbols) parts.push(counted(cost.symbols, "symbol"));
+        if (cost.cells) parts.push(counted(cost.cells, "cell"), counted(cost.edges, "edge"));
         if (cost.segments && cost.segments !== "0") parts.push(counted(cost.segments, "segment"));
         if (extent) parts.push(`${span(extent[0], extent[2])} × ${span(extent[1], extent[3])} steps`);
-        const unknown = facts.is_map ? "A map has no word to count." : "The cost is unknown until the word is derived.";
+        const unknown = facts.is_map ? "This map has too many cells to be counted at once." : "The cost is unknown until the word is derived.";
         this.cost.replaceChildren(element("span", {}, parts.join(" · ") || unknown));
         this.cost.classList.toggle("deep", !cost.is_derivable);
         if (cost.is_derivable) return;

@@ -8,11 +8,11 @@ import { button, checkbox, element, labelled } from "./elements";
 import { openFilm, type FilmKind } from "./film";
 import { bytes as sizeOf, capital } from "./numbers_shown";
 import { drawOptions, windowOnScreen } from "./on_screen";
-import { optionGroups } from "./option_fields";
+import { optionGroups, showFit } from "./option_fields";
 import { offered } from "./option_scopes";
 import { optionOf, withOption } from "./options";
 import { drawInto, isAbort } from "./pictures";
-import type { Command, FormatHelp, Made, Options, Request } from "./protocol";
+import type { Command, FormatHelp, Made, Options, Request, Unfit } from "./protocol";
 import { Refusal } from "./refusal";
 import { ReliefView } from "./relief_view";
 
@@ -81,12 +81,10 @@ function choicesOf(application: Application): Choice[] {
     ];
 }
 
-// Capitalises "sound", but not "glTF".
+// Capitalises "compressed MusicXML", but not "glTF". Two formats are "sound", and are named by their extensions.
 function nameOf({ label, extension }: FormatHelp): string {
-    const isKind = /^[a-z ]+$/.test(label);
-    // Two formats are "sound", and their row has no room for the extension.
-    if (isKind && by_the_program.has(extension)) return extension.toUpperCase();
-    return isKind ? capital(label) : label || extension.toUpperCase();
+    if (label === "sound" || label === "") return extension.toUpperCase();
+    return /^[a-z]+( |$)/.test(label) ? capital(label) : label;
 }
 
 class Export {
@@ -233,6 +231,22 @@ class Export {
         const opens = groups.find(({ name }) => name === group)?.opens;
         for (const each of made) if (opens?.test(each.dataset["group"]!)) each.setAttribute("open", "");
         this.options.replaceChildren(...made);
+        void this.hideUnfit();
+    }
+
+    // Hides the options that the format, the drawing or other options exclude, unless they are set.
+    private async hideUnfit(): Promise<void> {
+        const { choice, application } = this;
+        const { interpreter, format } = choice;
+        if (interpreter !== "draw" || format === pattern_format) return;
+        const { draw: options, pattern } = application.store.work;
+        try {
+            const asked = { do: "unfit", format: format.extension, options, pattern } as const;
+            const { json } = await application.engine.request<Unfit>(asked, { key: "export-unfit" });
+            if (choice === this.choice) showFit(this.options, new Set(json.options), application.store.work.draw);
+        } catch {
+            // an invalid value: its message says what is wrong, and all options stay
+        }
     }
 
     private refreshSoon(): void {
@@ -252,6 +266,7 @@ class Export {
         this.made = null;
         if (this.choice.format === pattern_format) this.offerPattern();
         else void this.make();
+        void this.hideUnfit();
         void this.showPreview();
     }
 
@@ -414,6 +429,8 @@ class Export {
     }
 }
 
-export function openExport(application: Application): void {
+/// @param format  is chosen: `draw pdf`, `play mid`; absent: the last one
+export function openExport(application: Application, format = chosen): void {
+    chosen = format;
     new Export(application);
 }

@@ -13,9 +13,10 @@ import { optionOf, withOption } from "./options";
 import { pageOptions } from "./option_scopes";
 import { imageOf, isAbort } from "./pictures";
 import { CurveView } from "./play/curve_view";
+import { showSpline } from "./play/spline";
 import { readInk } from "./play/surface";
 import type { Made, Notes, Pixels } from "./protocol";
-import { readMelody, type Melody } from "./sound/melody";
+import { readMelody, tickAfter, type Melody } from "./sound/melody";
 import type { VoiceSettings } from "./sound/sound_output";
 
 export type FilmKind = "line" | "growth" | "play";
@@ -46,7 +47,7 @@ interface Film {
 /// The voices and the tempo with which Play plays; absent: those of the text.
 export interface Playing {
     voices: VoiceSettings[];
-    tempo: number;
+    tempo: number | null; // of the whole piece; null: its own
     volume: number;
 }
 
@@ -237,7 +238,7 @@ class FilmDialog {
         const melody = readMelody(json, bytes);
         if (melody.count === 0) throw new Error("This pattern plays no notes.");
         const chosen = Number(optionOf(play, "tempo"));
-        const usual = { voices: usualVoices(melody), tempo: chosen > 0 ? chosen : melody.tempo, volume: 0.8 };
+        const usual = { voices: usualVoices(melody), tempo: chosen > 0 ? chosen : null, volume: 0.8 };
         const playing = this.playing?.voices.length === melody.voices ? this.playing : usual;
         return { melody, playing, title: arrangement ? titleOfArrangement(arrangement) : "" };
     }
@@ -263,6 +264,7 @@ class FilmDialog {
         this.dialog.body.append(canvas); // it takes its size from the page
         const curve = new CurveView(canvas, () => {});
         curve.show(melody);
+        await showSpline(this.studio, curve, melody, this.studio.store.work);
         const { raised } = readInk();
         return {
             width,
@@ -273,7 +275,7 @@ class FilmDialog {
             draw(context, at) {
                 context.fillStyle = raised;
                 context.fillRect(0, 0, width, height);
-                curve.draw(Math.min(melody.end, (at * playing.tempo * melody.ticks) / 60));
+                curve.draw(Math.min(melody.end, tickAfter(melody, at, playing.tempo)));
                 context.drawImage(canvas, 0, 0, width, height);
             },
         };

@@ -69,7 +69,7 @@ const steps: Step[] = [
     },
     {
         title: "The same word is a melody",
-        text: ["Play reads the line as notes: its direction is the pitch, and every step is a beat."],
+        text: ["Play reads the line as notes: its height is the pitch, and its length the duration."],
         task: "Open Play and press the round button.",
         panel: "",
         side: "text",
@@ -91,12 +91,17 @@ const steps: Step[] = [
 
 interface Aim {
     label: string;
+    panels: string[]; // that belong to it: in others the guide gives way
     begin(application: Application): void;
     text: string;
     acts: (application: Application) => [label: string, act: () => void][];
 }
 
-const saving: [label: string, act: (application: Application) => void] = ["Save it…", (application) => openExport(application)];
+/// Opens Export with the format that fits the aim.
+const saving = (application: Application, format: string): [label: string, act: () => void] => [
+    "Save it…",
+    () => openExport(application, format),
+];
 
 function clickIn(selector: string, label: string): void {
     const found = [...document.querySelectorAll<HTMLElement>(`${selector} button`)];
@@ -106,35 +111,38 @@ function clickIn(selector: string, label: string): void {
 const aims: Aim[] = [
     {
         label: "A kolam for the door",
+        panels: ["bench", "map"],
         begin: ({ store }) => store.change({ panel: "bench" }),
-        text: "Click between two dots to cross the lines or turn them back; the other sides follow. Choose the grid on the right.",
+        text: "Click between two dots to cross the lines or turn them back; the other sides follow. Choose a grid beside or below the board.",
         acts: (application) => [
             ["Surprise me", () => clickIn("#panel-bench", "Random kolam")],
-            [saving[0], () => saving[1](application)],
+            saving(application, "draw pdf"),
         ],
     },
     {
         label: "A poster",
+        panels: ["gallery", "map", "variations"],
         begin: ({ store }) => store.change({ panel: "gallery" }),
-        text: "Click a picture you like. Then change its colours and n on the left, or choose among Variations, and save it as a PDF of any size.",
+        text: "Click a picture you like. Then change its colours and n under Values, or choose among Variations, and save it as a PDF of any size.",
         acts: (application) => [
             ["Variations", () => application.store.change({ panel: "variations" })],
-            [saving[0], () => saving[1](application)],
+            saving(application, "draw pdf"),
         ],
     },
     {
         label: "A melody",
+        panels: ["play", "gallery"],
         begin(application) {
             const entry = application.patterns.find(({ name }) => name === "hilbert-todi");
             if (entry) openPattern(application, { name: `${entry.name}.lsys`, text: entry.text }, "play");
         },
-        text: "Press play. Scale, instrument and tempo are on the right; Gallery has more melodies, and arrangements for several instruments.",
+        text: "Press play. Scale and instrument are listed beside or below the curve; Gallery has more melodies, and arrangements for several instruments.",
         acts: (application) => [
             ["More melodies", () => {
                 application.store.change({ panel: "gallery" });
                 showKind("melodies");
             }],
-            [saving[0], () => saving[1](application)],
+            saving(application, "play mid"),
         ],
     },
 ];
@@ -145,6 +153,7 @@ export class Guide {
     private before: Work | null = null;
     private isDone = false;
     private target: Element | null = null;
+    private aim: Aim | null = null;
     private greeted: Work | null = null; // the work of a visitor whom the greeting still waits for
 
     constructor(private readonly application: Application) {
@@ -178,6 +187,7 @@ export class Guide {
     private follow(aim: Aim): void {
         this.leave();
         aim.begin(this.application);
+        this.aim = aim;
         const text = element("div", { class: "guide-text", role: "status" });
         text.append(element("h2", {}, aim.label), element("p", {}, aim.text));
         this.show(text, aim.acts(this.application).map(([label, act], at) => button(label, act, { kind: at > 0 ? "primary" : "" })));
@@ -228,6 +238,10 @@ export class Guide {
 
     private check(): void {
         this.checkGreeting();
+        if (this.aim && !this.aim.panels.includes(this.application.store.work.panel)) {
+            this.leave();
+            this.place.hidden = true;
+        }
         const step = steps[this.at];
         if (!step || this.isDone || !this.before || !step.isDone(this.application, this.before)) return;
         this.isDone = true;
@@ -261,6 +275,7 @@ export class Guide {
         this.target?.classList.remove("guide-target");
         this.target = null;
         this.at = -1;
+        this.aim = null;
         this.before = this.greeted = null;
     }
 

@@ -1,7 +1,8 @@
 // Checks the values that a link sets on the page. Links are untrusted.
+import { isArrangement } from "./arrangements";
 import { cameraOf } from "./camera";
 import type { Work } from "./context";
-import type { Help, Shared } from "./protocol";
+import type { ArrangementRequest, Help, Shared } from "./protocol";
 
 function parsed(text: string | undefined): unknown {
     try {
@@ -22,6 +23,13 @@ export function readPlace(text: string | undefined): Work["place"] {
 export function readLocked(text: string | undefined): string[] {
     const names = parsed(text);
     return Array.isArray(names) && names.every((name) => typeof name === "string") ? [...new Set(names)] : [];
+}
+
+/// An arrangement that is played instead of the pattern; null if the text is none. Its name has no folders.
+export function readArrangement(text: string | undefined): ArrangementRequest | null {
+    const { name, text: tables } = (parsed(text) ?? {}) as Partial<Record<keyof ArrangementRequest, unknown>>;
+    const isName = typeof name === "string" && /^[^./\\\p{C}][^/\\\p{C}]{0,200}$/u.test(name);
+    return isName && typeof tables === "string" && isArrangement(tables) ? { name, text: tables } : null;
 }
 
 /// The names of options that no option of the program has.

@@ -7,6 +7,7 @@ import { onTheme } from "./layout";
 import { addGestures } from "./map_gestures";
 import { makePlaceBar, stepsText } from "./map_place";
 import { drawing, MapView } from "./map_view";
+import { makeMapWord } from "./map_word";
 import type { Opened } from "./protocol";
 import { Refusal } from "./refusal";
 import { sheetOf } from "./sheet";
@@ -52,7 +53,8 @@ export const makeMapPanel: MakePanel = (studio) => {
         ),
         element("div", { class: "map-pair" }, toDrawing, toPage),
     );
-    const panel = element("div", { class: "map" }, canvas, hint, problem, tools, place.element);
+    const word = makeMapWord(studio);
+    const panel = element("div", { class: "map" }, canvas, hint, word.element, problem, tools, place.element);
 
     addGestures(view, (at) => {
         pointer = at;
@@ -77,13 +79,16 @@ export const makeMapPanel: MakePanel = (studio) => {
             shown = now;
             refusal.clear();
             if (typeof now === "string") {
+                word.hide();
                 problem.textContent = now;
                 problem.hidden = now === "";
             } else {
                 refusal.show(now.error, now.pattern);
                 // Patterns of the folder words are read rather than drawn.
                 if (/no visible line/.test(messageOf(now.error))) {
-                    problem.append(button("Show its words", () => studio.store.change({ panel: "steps" })));
+                    word.show(now.pattern);
+                } else {
+                    word.hide();
                 }
             }
         }

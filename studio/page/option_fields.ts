@@ -37,11 +37,81 @@ function choicesOf(option: OptionHelp): string[] {
     return /^[a-z\d]+(\|[a-z\d]+)+$/.test(option.value) ? option.value.split("|") : [];
 }
 
+const long_help = 90; // characters
+const usual_sizes: readonly [value: string, label: string][] = [
+    ["A6", "A6 (postcard)"], ["A5", "A5"], ["A3", "A3"], ["A2", "A2"], ["A1", "A1"], ["A0", "A0"],
+    ["letter", "Letter"], ["legal", "Legal"], ["tabloid", "Tabloid"],
+    ["30x30cm", "30 × 30 cm"], ["30x40cm", "30 × 40 cm"], ["50x70cm", "50 × 70 cm"], ["100x150mm", "100 × 150 mm"],
+];
+
+const shownName = (name: string): string => capital(name.replaceAll("-", " "));
+
+/// The help without the names of the command line: `'step' sets …` becomes “Step” sets …
+export function plainHelp(help: string, names: ReadonlySet<string>): string {
+    return help
+        .replaceAll(/--([a-z][a-z-]*)/g, (whole, name: string) => (names.has(name) ? `“${shownName(name)}”` : whole))
+        .replaceAll(/'([a-z][a-z-]*)'/g, (whole, name: string) => (names.has(name) ? `“${shownName(name)}”` : whole));
+}
+
+/// The beginning of a help text, which says what the option does, and the rest, which may be empty.
+export function dividedHelp(help: string): [string, string] {
+    if (help.length <= long_help) return [help, ""];
+    const end = /^.{8,}?(?=[;:] |, or )/.exec(help)?.[0].length ?? help.lastIndexOf(" ", long_help);
+    return [help.slice(0, end), help.slice(end).replace(/^[;:,]?\s*/, "")];
+}
+
+// A help text; the rest of a long one is shown on demand. Empty if it only repeats the name: `landscape page`.
+function helpElement(help: string, name: string, id: string): HTMLElement {
+    if (help.toLowerCase() === `${name} page`) return element("p", { class: "option-help", id, hidden: true }, capital(help));
+    const [first, rest] = dividedHelp(help);
+    if (rest === "") return element("p", { class: "option-help", id }, capital(help));
+    return element(
+        "details",
+        { class: "option-help", id },
+        element("summary", {}, `${capital(first)} …`),
+        element("p", {}, capital(rest)),
+    );
+}
+
+// The usual sizes of paper, and a field for others.
+function sizeField(input: HTMLInputElement, value: string, act: (value: string | null) => void): HTMLElement {
+    const other = "other";
+    const select = element(
+        "select",
+        {},
+        element("option", { value: "" }, "A4"),
+        ...usual_sizes.map(([each, label]) => element("option", { value: each }, label)),
+        element("option", { value: other }, "Other…"),
+    );
+    const known = usual_sizes.find(([each]) => each.toLowerCase() === value.toLowerCase());
+    select.value = value === "" || value.toLowerCase() === "a4" ? "" : (known?.[0] ?? other);
+    input.hidden = select.value !== other;
+    input.placeholder = "width x height, such as 50x70cm";
+    input.setAttribute("aria-label", "Other size");
+    select.addEventListener("change", () => {
+        input.hidden = select.value !== other;
+        if (input.hidden) act(select.value || null);
+        else input.focus();
+    });
+    return select;
+}
+
 /// The field of one option; `value` is undefined if the option is not set.
-export function optionField(option: OptionHelp, value: string | undefined, act: OptionAct): HTMLElement {
+export function optionField(
+    option: OptionHelp,
+    value: string | undefined,
+    act: OptionAct,
+    names: ReadonlySet<string> = new Set(),
+): HTMLElement {
+    const field = plainField(option, value, act, names);
+    field.dataset["option"] = option.name;
+    return field;
+}
+
+function plainField(option: OptionHelp, value: string | undefined, act: OptionAct, names: ReadonlySet<string>): HTMLElement {
     const id = `option-${++last}`;
-    const help = element("p", { class: "option-help", id: `${id}-help` }, capital(option.help));
-    const name = capital(option.name.replaceAll("-", " "));
+    const name = shownName(option.name);
+    const help = helpElement(plainHelp(option.help, names), option.name, `${id}-help`);
     const onlyValue = /^[a-z]+$/.test(option.value) ? option.value : "";
     const mayBeEmpty = option.value.startsWith("["); // the value may be left out: `--dots`, `--dots=2mm`
     if (option.kind === "flag" || mayBeEmpty || onlyValue !== "") {
@@ -88,8 +158,12 @@ export function optionField(option: OptionHelp, value: string | undefined, act: 
     input.value = value ?? "";
     input.addEventListener("change", () => act(option.name, input.value.trim() || null));
     const field = element("div", { class: "field" }, element("label", { for: id }, name), input, help);
-    if (option.name === "size") {
+    if (option.name === "size" && input instanceof HTMLInputElement) {
+        const select = sizeField(input, value ?? "", (chosen) => act(option.name, chosen));
+        select.id = id;
+        input.removeAttribute("id");
         input.setAttribute("list", `${id}-list`);
+        input.before(select);
         field.append(
             element(
                 "datalist",
@@ -108,8 +182,9 @@ export function optionGroups(options: OptionHelp[], values: Options, act: Option
         const group = option.group || first;
         groups.set(group, [...(groups.get(group) ?? []), option]);
     }
+    const names = new Set(options.map(({ name }) => name));
     return [...groups].map(([group, members]) => {
-        const fields = members.map((option) => optionField(option, optionOf(values, option.name), act));
+        const fields = members.map((option) => optionField(option, optionOf(values, option.name), act, names));
         const set = members.filter((option) => optionOf(values, option.name) !== undefined).length;
         return element(
             "details",
@@ -118,4 +193,16 @@ export function optionGroups(options: OptionHelp[], values: Options, act: Option
             element("div", { class: "fields" }, ...fields),
         );
     });
+}
+
+/// Hides the fields of options that cannot be used, and groups without other fields. Options that are set stay.
+export function showFit(groups: HTMLElement, unfit: ReadonlySet<string>, values: Options): void {
+    for (const group of groups.children as Iterable<HTMLElement> & HTMLCollection) {
+        const fields = [...group.querySelectorAll<HTMLElement>("[data-option]")];
+        for (const field of fields) {
+            const name = field.dataset["option"]!;
+            field.hidden = unfit.has(name) && optionOf(values, name) === undefined && !field.contains(document.activeElement);
+        }
+        (group as HTMLElement).hidden = fields.length > 0 && fields.every((field) => field.hidden);
+    }
 }

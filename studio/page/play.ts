@@ -12,6 +12,7 @@ import { Player } from "./play/player";
 import { showReading } from "./play/reading_fields";
 import { remediesFor, withMovesDrawn } from "./play/remedies";
 import { RollView } from "./play/roll_view";
+import { showSpline } from "./play/spline";
 import { TransportBar } from "./play/transport_bar";
 import { VoiceList } from "./play/voice_list";
 import type { ArrangementRequest, Made, Notes, Opened } from "./protocol";
@@ -63,11 +64,6 @@ class PlayPanel implements Panel {
     private readonly refusal: Refusal;
     private readonly waiting = element("p", { class: "note play-waiting", role: "status", hidden: true });
     private readonly arranged = element("div", { class: "play-arranged", hidden: true });
-    private readonly tempoNote = element(
-        "p",
-        { class: "play-tempo-note", hidden: true },
-        "Sections have tempos of their own, which files keep; here the first is played throughout.",
-    );
     private readonly curveCanvas = element("canvas", { class: "play-curve-canvas", role: "img" });
     private readonly rollCanvas = element("canvas", { class: "play-roll-canvas", role: "img" });
     private readonly facts = element("p", { class: "play-facts" });
@@ -133,7 +129,8 @@ class PlayPanel implements Panel {
     private listen(): void {
         const { studio, curveCanvas } = this;
         studio.onOpened((facts, work) => {
-            if (!work.arrangement) this.change(facts, work);
+            // An arrangement does not depend on the text, but may have to wait for it after a reload.
+            if (!work.arrangement || this.isStale) this.change(facts, work);
         });
         studio.onChecked(() => this.sayWaiting());
         studio.store.subscribe((work, before) => {
@@ -274,7 +271,6 @@ class PlayPanel implements Panel {
         );
         this.arranged.replaceChildren(
             element("p", {}, "Arrangement: ", element("strong", {}, titleOfArrangement(arrangement))),
-            this.tempoNote,
             back,
         );
     }
@@ -309,9 +305,9 @@ class PlayPanel implements Panel {
         this.heard = work.pattern;
         // Notes of an arrangement come from several texts.
         this.origins.reset(melody, work.arrangement ? null : this.played(work));
-        this.tempoNote.hidden = !melody.changesTempo;
         this.player.setMelody(melody);
         this.curve.show(melody);
+        void showSpline(this.studio, this.curve, melody, work, () => this.player.melody === melody);
         this.roll.show(melody);
         this.litNote = -1;
         const many = (count: number, one: string): string =>
@@ -355,9 +351,9 @@ class PlayPanel implements Panel {
 
     private applyTempo(): void {
         const chosen = Number(optionOf(this.studio.store.work.play, "tempo"));
-        const tempo = chosen > 0 ? chosen : (this.player.melody?.tempo ?? 120);
-        this.player.transport.setTempo(tempo);
-        this.bar.showTempo(tempo);
+        const { transport } = this.player;
+        transport.setTempo(chosen > 0 ? chosen : null); // for all sections, as in files
+        this.bar.showTempo(Math.round(transport.tempoAt(this.player.place()) * 100) / 100);
         this.redraw();
     }
 
@@ -382,7 +378,7 @@ class PlayPanel implements Panel {
         const { player } = this;
         player.pause();
         const voices = player.voices.map((voice) => ({ ...voice }));
-        const tempo = 60 / (player.transport.secondsPerTick * (player.melody?.ticks ?? 480));
+        const { tempo } = player.transport;
         openFilm(this.studio, "play", player.melody && { voices, tempo, volume: player.volume });
     }
 
@@ -442,9 +438,9 @@ class PlayPanel implements Panel {
 
     /// Highlights the origin of the note that has just begun, in the editor.
     private light(melody: Melody, heard: number): void {
-        const { secondsPerTick } = this.player.transport;
+        const { transport } = this.player;
         // A note that begins before the middle of this frame belongs to the frame.
-        const tick = Math.min(heard + half_frame / secondsPerTick, melody.end);
+        const tick = Math.min(transport.tickAfter(heard, half_frame), melody.end);
         let note = firstFrom(melody, tick + 1e-6) - 1;
         void this.origins.lookAhead(Math.max(0, note));
         // Among notes that begin together, choose the first audible voice.
@@ -457,7 +453,7 @@ class PlayPanel implements Panel {
         this.litNote = note;
         this.studio.highlight(place);
         performance.clearMarks("note lit");
-        const late = (heard - melody.onset[note]) * secondsPerTick * 1000;
+        const late = (transport.secondsAt(heard) - transport.secondsAt(melody.onset[note]!)) * 1000;
         performance.mark("note lit", { detail: { note, late, line: place.line, column: place.column } });
     }
 

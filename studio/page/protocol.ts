@@ -34,6 +34,10 @@ export type Request =
     | { do: "notes"; options?: Options; pattern: PatternRequest }
     | { do: "notes"; options?: Options; arrangement: ArrangementRequest }
     | { do: "make"; interpreter: "play"; format: string; options?: Options; arrangement: ArrangementRequest }
+    /// The lines of a drawing in the plane: see Lines.
+    | { do: "lines"; pattern: PatternRequest }
+    /// The options of prints that the format, the drawing or other options exclude, or that have no effect.
+    | { do: "unfit"; format: string; options?: Options; pattern: PatternRequest }
     /// Where the modules of the word come from; see Origin. `symbols` are positions in the word, counted from 1, decimal texts.
     | { do: "origins"; symbols: string[]; pattern: PatternRequest }
     | { do: "import"; name: string; view?: string } // with the file's bytes
@@ -127,7 +131,9 @@ export interface Opened {
     is_random: boolean; // depends on the seed
     has_view: boolean; // a window of any depth costs only the visible part
     cost: {
-        symbols: string; // "1365", or "about 10^24081"; empty if unknown before deriving
+        symbols: string; // "1365", or "about 10^24081"; empty if unknown before deriving, and for maps
+        cells: string; // of a map; empty if it is too large to be derived at once
+        edges: string;
         segments: string;
         is_derivable: boolean; // within the budget
         most: string; // the largest derivation length within the budget
@@ -151,8 +157,13 @@ export interface Notes {
     beats: number; unit: number; // meter
     ticks: number; // ticks per quarter note
     parts: { name: string; scale: string; program: number; voices: number; drums: boolean }[];
-    changes?: { onset: number; tempo: number }[]; // of the tempo after the beginning
+    upbeat?: number; // ticks before the first bar line; absent or 0: none
+    changes?: { onset: number; tempo: number; beats?: number; unit?: number }[]; // of tempo and meter after the beginning
 }
+
+/// Bytes: x and y of each point as doubles, in turtle steps; splines are given as control polygons.
+export interface Lines { begins: number[] } // the first point of each line, then the number of points
+export interface Unfit { options: string[] }
 
 /// A place in the text; line 0: not in the text, but in a setting.
 export interface Place { line: number; column: number; length: number }

@@ -6,7 +6,8 @@ import { copyOrSelect } from "./clipboard";
 import { messageOf, RequestFailed } from "./context";
 import { openDialog, type Dialog } from "./dialog";
 import { button, checkbox, element, field, labelled } from "./elements";
-import { excerpt, readLocked, readPlace, unknownOptions } from "./link_contents";
+import { titleOfArrangement } from "./arrangements";
+import { excerpt, readArrangement, readLocked, readPlace, unknownOptions } from "./link_contents";
 import { count } from "./numbers_shown";
 import { drawOptions, windowOnScreen } from "./on_screen";
 import { openPattern } from "./opening";
@@ -24,8 +25,9 @@ const most_rows = 100; // values
 const isServed = () => /^https?:$/.test(location.protocol);
 
 function shared(application: Application, withView: boolean): Shared {
-    const { pattern, draw, play, place, panel, locked } = application.store.work;
+    const { pattern, draw, play, place, panel, locked, arrangement } = application.store.work;
     const page: Record<string, string> = { panel };
+    if (arrangement) page["arrangement"] = JSON.stringify(arrangement);
     if (withView && place) page["place"] = JSON.stringify(place);
     if (locked?.length) page["locked"] = JSON.stringify(locked);
     return { pattern, draw: withView ? drawOptions(application, true) : draw, play, page };
@@ -53,7 +55,8 @@ export function openShare(application: Application): void {
             );
             const link = `${location.href.replace(/#.*$/s, "")}#${json.link}`;
             address.value = link;
-            frame.value = frameFor(link, titleOf(application.store.work.pattern));
+            const { arrangement, pattern } = application.store.work;
+            frame.value = frameFor(link, arrangement ? titleOfArrangement(arrangement) : titleOf(pattern));
             showCode(code, facts, isServed() ? link : `#${json.link}`);
         } catch (error) {
             facts.textContent = error instanceof RequestFailed ? error.message : String(error);
@@ -72,6 +75,9 @@ export function openShare(application: Application): void {
                 { class: "code-facts" },
                 facts,
                 element("p", {}, "Commands accept it, too: ", element("code", {}, "sikku draw LINK -o print.svg")),
+                ...(application.store.work.arrangement
+                    ? [element("p", {}, "Commands read only the pattern of the link, not the arrangement: save that as MIDI in Play.")]
+                    : []),
             ),
         ),
     );
@@ -137,10 +143,17 @@ export async function inspectLink(application: Application, link: string): Promi
         forget();
         return;
     }
+    const open = () => openContents(application, contents);
+    if (isBundled(application, contents)) {
+        forget();
+        return open();
+    }
     const { pattern } = contents;
-    const shown = excerpt(pattern.text, most_text);
+    const arrangement = readArrangement(contents.page?.["arrangement"]);
+    const whole = arrangement ? `${arrangement.text.trimEnd()}\n\n# The pattern beside it:\n${pattern.text}` : pattern.text;
+    const shown = excerpt(whole, most_text);
     inspected?.close();
-    const dialog = openDialog("This link contains a pattern", {
+    const dialog = openDialog(`This link contains ${arrangement ? "an arrangement" : "a pattern"}`, {
         closed: () => {
             if (inspected === dialog) inspected = null;
             forget();
@@ -148,13 +161,15 @@ export async function inspectLink(application: Application, link: string): Promi
     });
     inspected = dialog;
     dialog.body.classList.add("link-contents");
-    const text = element("pre", { class: "link-text", tabindex: 0, "aria-label": "Text of the pattern" }, shown.text);
+    const label = `Text of the ${arrangement ? "arrangement" : "pattern"}`;
+    const text = element("pre", { class: "link-text", tabindex: 0, "aria-label": label }, shown.text);
+    const title = arrangement ? titleOfArrangement(arrangement) : titleOf(pattern);
     dialog.body.append(
         element(
             "p",
             {},
-            element("strong", {}, excerpt(titleOf(pattern), most_value).text),
-            ". It has not been run. A pattern is only data: it can draw and play, nothing else.",
+            element("strong", {}, excerpt(title, most_value).text),
+            ". It has not been run. It is only data: it can draw and play, nothing else.",
         ),
         text,
         ...(shown.rest > 0
@@ -163,25 +178,37 @@ export async function inspectLink(application: Application, link: string): Promi
         ...values(contents, pattern),
         ...leftOut(withheld),
     );
-    const open = button(
+    const openIt = button(
         "Open",
         () => {
             dialog.close();
-            const { draw = [], play = [], page = {} } = contents;
-            openPattern(application, { variant: "", settings: [], ...pattern }, page["panel"] ?? "map", {
-                draw: withOption(draw, "window", null),
-                play,
-                place: readPlace(page["place"]),
-                locked: readLocked(page["locked"]),
-            });
+            open();
         },
         { kind: "primary" },
     );
     dialog.footer.append(
         button("Discard", () => dialog.close()),
-        open,
+        openIt,
     );
     text.focus(); // not Open: whoever presses Enter has read nothing yet
+}
+
+function openContents(application: Application, { pattern, draw = [], play = [], page = {} }: Shared): void {
+    openPattern(application, { variant: "", settings: [], ...pattern }, page["panel"] ?? "map", {
+        draw: withOption(draw, "window", null),
+        play,
+        place: readPlace(page["place"]),
+        locked: readLocked(page["locked"]),
+        arrangement: readArrangement(page["arrangement"]),
+    });
+}
+
+/// True for bundled patterns and arrangements as they are, such as those of the links of the site: they need no questions.
+function isBundled({ patterns, arrangements }: Application, { pattern, draw = [], play = [], page = {} }: Shared): boolean {
+    if ((pattern.settings ?? []).length + draw.length + play.length > 0) return false;
+    const played = readArrangement(page["arrangement"]);
+    const isKnown = patterns.some(({ text }) => text === pattern.text);
+    return isKnown && (played === null || arrangements.some(({ text }) => text === played.text));
 }
 
 /// Commands for a plotter that the link wants to set. They are shown, and not used.

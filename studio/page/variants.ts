@@ -47,7 +47,9 @@ export function parametersOf(facts: Opened): Parameter[] {
     const angle =
         facts.keys.find(({ name }) => name === "angle increment") ??
         facts.keys.find(({ name }) => name === "angle factor");
-    if (angle?.name === "angle factor") {
+    if (facts.is_map) {
+        // no turtle that turns
+    } else if (angle?.name === "angle factor") {
         list.push({ name: "angle factor", label: "angle 360/", kind: "angle", value: angle.value });
     } else {
         list.push({

@@ -1,9 +1,10 @@
 // The panel with a sheet of variants: other seeds, one value against another, or edited productions. A click uses one.
 import { messageOf, type MakePanel, type Studio, type Work } from "./context";
 import { button, choices, element } from "./elements";
+import { count as digits, counted } from "./numbers_shown";
 import { putImage } from "./pictures";
 import type { Opened } from "./protocol";
-import { filters, searchVariants, type Found } from "./sheet_of_variants";
+import { filters, searchVariants, type Found, type Tally } from "./sheet_of_variants";
 import { makeAxisRow, makeLocks, type AxisChoice } from "./variation_controls";
 import {
     mutantOf,
@@ -43,6 +44,8 @@ class Variations {
     private readonly settings = element("div", { class: "variations-settings" });
     private readonly status = element("p", { class: "variations-status", role: "status" });
     private readonly sheet = element("div", { class: "variations-sheet", role: "group", "aria-label": "Variants" });
+    private readonly filterChips: { name: string; label: string; chip: HTMLButtonElement }[];
+    private readonly filterGroup: HTMLElement;
     private readonly again: HTMLButtonElement;
     private readonly fromHere: HTMLButtonElement;
 
@@ -64,7 +67,7 @@ class Variations {
             this.mode = mode;
             this.restart();
         });
-        const chips = filters.map(({ name, label, help }) => {
+        this.filterChips = filters.map(({ name, label, help }) => {
             const chip = element(
                 "button",
                 { type: "button", class: "chip", "aria-pressed": "false", title: help },
@@ -75,8 +78,14 @@ class Variations {
                 chip.setAttribute("aria-pressed", String(this.filters.has(name)));
                 this.restart();
             });
-            return chip;
+            return { name, label, chip };
         });
+        this.filterGroup = element(
+            "div",
+            { class: "variations-filters", role: "group", "aria-label": "Show only" },
+            element("span", { class: "variations-word" }, "Only"),
+            ...this.filterChips.map(({ chip }) => chip),
+        );
         this.again = button("Next 24", () => this.more());
         this.fromHere = button("Vary the chosen one", () => this.adopt(), { kind: "primary" });
         this.fromHere.hidden = true;
@@ -85,12 +94,7 @@ class Variations {
                 "div",
                 { class: "variations-bar" },
                 segmented,
-                element(
-                    "div",
-                    { class: "variations-filters", role: "group", "aria-label": "Show only" },
-                    element("span", { class: "variations-word" }, "Only"),
-                    ...chips,
-                ),
+                this.filterGroup,
                 element("div", { class: "variations-actions" }, this.status, this.fromHere, this.again),
             ),
             this.settings,
@@ -198,6 +202,13 @@ class Variations {
                 : "";
         this.settings.replaceChildren();
         this.again.hidden = this.mode === "values";
+        // Only lines in the plane can be examined.
+        const hasLines = !base.facts.is_map && !base.facts.is_spatial;
+        this.filterGroup.hidden = !hasLines;
+        if (!hasLines && this.filters.size > 0) {
+            this.filters.clear();
+            for (const { chip } of this.filterChips) chip.setAttribute("aria-pressed", "false");
+        }
         if (this.mode === "mutations") {
             const all = [...parametersOf(base.facts), ...productionsOf(base.facts)];
             this.settings.append(makeLocks(all, this.kept, (parameter, isKept) => this.keep(parameter, isKept)));
@@ -271,7 +282,7 @@ class Variations {
         this.status.textContent = "Searching…";
         const cells = this.prepare(plan.cells, plan.headings);
         const found: Found[] = [];
-        let tried = 0;
+        let tally: Tally = { tried: 0, undrawn: 0, repeated: 0, refused: new Map() };
         const side = 160;
         const ratio = Math.min(2, Math.max(1, window.devicePixelRatio || 1));
         const start = performance.now();
@@ -285,7 +296,7 @@ class Variations {
             else found.slice(0, count).forEach((each, at) => this.fill(cells[at]!, each));
         };
         try {
-            tried = await searchVariants(this.studio.engine, {
+            tally = await searchVariants(this.studio.engine, {
                 help: this.studio.help,
                 candidates: plan.candidates,
                 count: plan.cells,
@@ -310,21 +321,62 @@ class Variations {
         }
         if (search.signal.aborted) return;
         this.search = null;
+        const { tried } = tally;
         this.tried = tried;
-        for (const cell of cells) cell.classList.remove("waits");
+        for (const cell of cells) {
+            cell.classList.remove("waits");
+            if (cell.disabled && !plan.isFixed) cell.remove(); // no empty frames
+        }
         const shown = Math.min(found.length, plan.cells);
         this.element.dataset["milliseconds"] = String(Math.round(performance.now() - start));
         this.status.textContent =
             shown === plan.cells
                 ? ""
                 : shown === 0
-                  ? `None of ${tried} variants is valid${this.filters.size > 0 ? " and passes the filters" : ""}`
+                  ? ""
                   : plan.isFixed
                     ? `${shown} of ${plan.cells} are valid`
                     : `${shown} found among ${tried}`;
+        if (shown === 0) this.explainNothing(tally);
         this.markTaken(pattern);
         const focused = cells.find((cell) => cell.tabIndex === 0 && !cell.disabled);
         if (!focused) cells.find((cell) => !cell.disabled)?.setAttribute("tabindex", "0");
+    }
+
+    // Why there are no variants, and what to do instead of looking at empty frames.
+    private explainNothing({ tried, undrawn, repeated, refused }: Tally): void {
+        const reasons = [
+            ...filters.flatMap(({ name, refused: what }) => {
+                const number = refused.get(name) ?? 0;
+                return number > 0 ? [`${digits(String(number))} ${what}`] : [];
+            }),
+            ...(undrawn > 0 ? [`${digits(String(undrawn))} cannot be drawn`] : []),
+            ...(repeated > 0 ? [`${digits(String(repeated))} are repetitions`] : []),
+        ];
+        const head = this.filters.size > 0 ? "No variant passes the filters." : "No variant can be drawn.";
+        const why = tried > 0 && reasons.length > 0 ? `Of ${counted(tried, "variant")}: ${reasons.join(", ")}. ` : "";
+        const what =
+            this.filters.size > 0
+                ? "Remove a filter, or search among other variants."
+                : this.mode === "mutations"
+                  ? "Keep fewer values, or vary two values instead."
+                  : this.mode === "values"
+                    ? "Choose smaller ranges, or other values."
+                    : "Search among other seeds.";
+        const most = [...refused].sort((one, other) => other[1] - one[1])[0]?.[0];
+        const remedies = this.filterChips
+            .filter(({ name }) => this.filters.has(name))
+            .map(({ name, label, chip }) =>
+                button(`Without “${label}”`, () => chip.click(), { kind: name === most ? "primary" : "" }),
+            );
+        if (this.mode !== "values") remedies.push(button("Search further", () => this.more()));
+        const note = element(
+            "div",
+            { class: "note variations-nothing", role: "status" },
+            element("p", {}, element("strong", {}, head), ` ${why}${what}`),
+            element("div", { class: "toolbar" }, ...remedies),
+        );
+        this.sheet.replaceChildren(note);
     }
 
     private plan(base: { facts: Opened; work: Work }): Plan | null {

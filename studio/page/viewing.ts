@@ -1,7 +1,8 @@
 // Links that end in `&view=only` show a picture, a model or a melody without the editor, for a frame in another page.
 import type { Application } from "./application";
+import { titleOfArrangement } from "./arrangements";
 import { element } from "./elements";
-import { readPlace, unknownOptions } from "./link_contents";
+import { readArrangement, readPlace, unknownOptions } from "./link_contents";
 import { withOption } from "./options";
 import { titleOf } from "./pattern_text";
 import type { Help, ReadLink } from "./protocol";
@@ -34,14 +35,16 @@ export async function view(application: Application, link: string, help: Help): 
     const { pattern, draw = [], play = [], page = {} } = json.shared;
     if (unknownOptions(json.shared, help).length > 0) throw new Error("the link is of a later version");
     const panel = shown.includes(page["panel"] ?? "") ? page["panel"]! : "map";
+    const arrangement = readArrangement(page["arrangement"]);
     application.store.change({
+        arrangement,
         pattern: { variant: "", settings: [], ...pattern },
         draw: withOption(draw, "window", null),
         play,
         place: readPlace(page["place"]),
         panel,
     });
-    const title = titleOf(pattern);
+    const title = panel === "play" && arrangement ? titleOfArrangement(arrangement) : titleOf(pattern);
     document.title = title;
     const whole = location.href.replace(view_only, "");
     const there = { class: "view-link", href: whole, target: "_blank", rel: "noopener", title: "Open in the studio" };

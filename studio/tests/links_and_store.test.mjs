@@ -26,7 +26,7 @@ const { readPlace, readLocked, unknownOptions, excerpt } = await load("link_cont
 const { History, putAside } = await load("store");
 const { windowOnScreen } = await load("on_screen");
 const { lettersOf, bytesOf, keepScale } = await load("scales");
-const { namedValues } = await load("option_fields");
+const { namedValues, plainHelp, dividedHelp } = await load("option_fields");
 const { shellWords } = await load("shell_words");
 
 beforeEach(() => {
@@ -228,4 +228,15 @@ test("recipes are split into words as a shell does", () => {
     assert.deepEqual(shellWords("--title-line='x -n 5 y' --set a=b"), ["--title-line=x -n 5 y", "--set", "a=b"]);
     assert.deepEqual(shellWords("--heading 'it'\\''s' --dots=''"), ["--heading", "it's", "--dots="]);
     assert.deepEqual(shellWords("--gcode-start $'G0\\nM3 \\'a\\' \\x09\\\\'"), ["--gcode-start", "G0\nM3 'a' \t\\"]);
+});
+
+test("help texts name the fields, and long ones are divided", () => {
+    const names = new Set(["step", "dot-spacing"]);
+    assert.equal(plainHelp("at the length that 'step' sets; excludes --dot-spacing", names),
+        "at the length that “Step” sets; excludes “Dot spacing”");
+    assert.equal(plainHelp("such as 'Noto Serif' or 'turn'", names), "such as 'Noto Serif' or 'turn'");
+    assert.deepEqual(dividedHelp("margin on all four sides (10mm)"), ["margin on all four sides (10mm)", ""]);
+    const long = "draw a frame around the drawing: kaavi, padi, lotus, rope, diamonds, waves, marigolds, lamps, or a file";
+    assert.deepEqual(dividedHelp(long), ["draw a frame around the drawing", long.slice(33)]);
+    assert.equal(dividedHelp("a ".repeat(80))[0].length, 89);
 });

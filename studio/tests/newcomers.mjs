@@ -88,6 +88,11 @@ const tests = {
         await guideButton(page, "Surprise me").click();
         await page.waitForFunction((text) => document.querySelector(".cm-content").textContent !== text, before);
         await page.locator(".cm-content", { hasText: "// grid:" }).waitFor();
+        // The aim ends where it does not apply.
+        await page.getByRole("tab", { name: "Picture" }).click();
+        assert.ok(await guide(page).isVisible());
+        await page.getByRole("tab", { name: "Gallery" }).click();
+        await guide(page).waitFor({ state: "hidden" });
         await close(page);
 
         const poster = await visit();
@@ -296,13 +301,117 @@ const tests = {
         await close(page);
     },
 
-    async "words that draw nothing are offered to be read"() {
+    async "words that draw nothing are shown"() {
         const page = await visit();
         await setText(page, "title: Algae\nderivation length: 5\naxiom: A\nA --> AB\nB --> A\n");
-        await page.getByRole("button", { name: "Show its words" }).click();
+        await page.locator(".map-word", { hasText: "ABAABABAABAAB" }).waitFor();
+        await page.locator(".map-word h3", { hasText: "The word after 5 steps" }).waitFor();
+        await slider(page, "n").focus();
+        await page.keyboard.press("ArrowLeft");
+        await page.locator(".map-word h3", { hasText: "The word after 4 steps" }).waitFor();
+        await checkAccess(page, "word");
+        await page.getByRole("button", { name: "All steps" }).click();
         await isShown(page, "Steps");
         await page.locator(".steps-list > li").nth(2).waitFor();
         await close(page);
+    },
+
+    async "a map tells its size, and varies without angles and filters"() {
+        const page = await visit();
+        await setText(page, "map: clockwise\nderivation length: 2\naxiom: A~B~AB\nA --> B[-A][+~A]B\nB --> ~A\n");
+        await page.locator(".cost", { hasText: "4 cells" }).waitFor();
+        assert.equal(await slider(page, "angle").count(), 0);
+        await page.getByRole("tab", { name: "Variations" }).click();
+        await page.locator(".variant:not(.waits)").first().waitFor();
+        assert.ok(await page.getByRole("group", { name: "Show only" }).isHidden());
+        await page.getByRole("group", { name: "Keep unchanged" }).waitFor();
+        assert.equal(await page.getByRole("group", { name: "Keep unchanged" }).getByText("angle").count(), 0);
+        await close(page);
+    },
+
+    async "a search that finds nothing says why, without empty frames"() {
+        const page = await visit();
+        await page.getByRole("tab", { name: "Variations" }).click();
+        await page.locator(".variant:not(.waits)").first().waitFor();
+        for (const name of ["Closed", "Single line", "Self-avoiding", "Kolam"]) {
+            await page.getByRole("button", { name, exact: true }).click();
+        }
+        const note = page.locator(".variations-nothing");
+        await note.waitFor();
+        assert.match(await note.textContent(), /No variant passes the filters\. Of [\d,]+ variants: .*have open lines/);
+        assert.equal(await page.locator(".variant").count(), 0);
+        await checkAccess(page, "no variants");
+        await note.getByRole("button", { name: "Without “Self-avoiding”" }).click();
+        assert.equal(await page.getByRole("button", { name: "Self-avoiding", exact: true }).getAttribute("aria-pressed"), "false");
+        await close(page);
+    },
+
+    async "Play draws the curve that Picture shows"() {
+        const page = await visit();
+        await page.getByRole("tab", { name: "Play" }).click();
+        await page.locator(".play-place", { hasText: "Bar 1" }).waitFor();
+        // At the corner of a control polygon there is no line, because the curve is round.
+        await page.waitForTimeout(800);
+        const colours = await page.evaluate(() => {
+            const canvas = document.querySelector(".play-curve-canvas");
+            const { width, height } = canvas;
+            const { data } = canvas.getContext("2d").getImageData(0, 0, width, height);
+            let left = width, top = height, right = 0, bottom = 0;
+            for (let y = 0; y < height; ++y) for (let x = 0; x < width; ++x) {
+                if (data[4 * (y * width + x) + 3] < 60) continue;
+                left = Math.min(left, x); right = Math.max(right, x); top = Math.min(top, y); bottom = Math.max(bottom, y);
+            }
+            return { across: (right - left) / width, down: (bottom - top) / height };
+        });
+        assert.ok(colours.across > 0 && colours.down > 0.3);
+        await page.screenshot({ path: process.env.SHOT ?? "/tmp/play.png" });
+        await close(page);
+    },
+
+    async "links to bundled patterns open at once, and others show their text first"() {
+        const { text } = ask({ do: "patterns" }).patterns.find(({ name }) => name === "lilac");
+        const bundled = linkOf({ pattern: { name: "lilac.lsys", text } });
+        const page = await visit({ fragment: `#${bundled}` });
+        await page.locator("#work-title", { hasText: "Lilac" }).waitFor();
+        assert.equal(await page.getByRole("dialog").count(), 0);
+        await page.waitForFunction(() => location.hash === "");
+        await page.evaluate((link) => { location.hash = link; }, linkOf({ pattern: { name: "a.lsys", text: `${text}\n` } }));
+        await page.getByRole("dialog", { name: "This link contains a pattern" }).waitFor();
+        await close(page);
+    },
+
+    async "a link contains the arrangement"() {
+        const page = await visit();
+        await page.getByRole("tab", { name: "Gallery" }).click();
+        await page.getByRole("searchbox", { name: "Search patterns" }).fill("canon dekking");
+        await page.locator(".card:visible", { hasText: "Canon on" }).click();
+        await page.locator(".play-place", { hasText: "Bar 1" }).waitFor();
+        await page.getByRole("button", { name: "Share" }).click();
+        await page.getByText("Commands read only the pattern of the link").waitFor();
+        const link = await page.getByRole("textbox", { name: "Link" });
+        await page.waitForFunction(() => document.querySelector("textarea[aria-label=Link]").value.includes("#sikku1."));
+        const fragment = (await link.inputValue()).replace(/^.*#/, "#");
+        const { shared } = ask({ do: "read_link", link: fragment });
+        assert.equal(JSON.parse(shared.page.arrangement).name, "canon.toml");
+        await close(page);
+
+        const edited = structuredClone(shared);
+        edited.page.arrangement = shared.page.arrangement.replace("Canon on Dekking's curve", "Canon of mine");
+        const other = await visit({ fragment: `#${linkOf(edited)}` });
+        const dialog = other.getByRole("dialog", { name: "This link contains an arrangement" });
+        await dialog.getByText("[[track]]").first().waitFor();
+        await dialog.getByRole("button", { name: "Open", exact: true }).click();
+        await other.locator(".play-arranged", { hasText: "Canon of mine" }).waitFor();
+        await other.getByRole("button", { name: /^Undo/ }).click();
+        await other.locator(".play-arranged").waitFor({ state: "hidden" });
+        await other.getByRole("button", { name: /^Redo/ }).click();
+        await other.locator(".play-arranged:visible").waitFor();
+        await close(other);
+
+        const viewed = await visit({ fragment: `${fragment}&view=only`, ready: false });
+        await viewed.locator(".play-place", { hasText: "Bar 1" }).waitFor();
+        await viewed.getByText("Arrangement:").waitFor();
+        await close(viewed);
     },
 
     async "a film of the line is saved as GIF, growth too"() {
@@ -476,7 +585,7 @@ const tests = {
     },
 };
 
-for (const [width, height] of [[320, 640], [390, 844], [720, 450], [1024, 768]]) {
+for (const [width, height] of [[320, 640], [390, 844], [560, 800], [720, 450], [960, 600], [1024, 768], [1100, 700]]) {
     tests[`the guide leaves room for the picture at ${width} × ${height}`] = async () => {
         const page = await visit({ viewport: { width, height } });
         for (const step of [null, ...Array(5).keys()]) {

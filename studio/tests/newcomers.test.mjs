@@ -19,6 +19,10 @@ const { isArrangement, titleOfArrangement } = await load("arrangements");
 const { viewedLink, linkIn, frameFor } = await load("viewing");
 const { troubleOf } = await load("trouble");
 const { picked } = await load("picked");
+const { curveOf, NoteCurves } = await load("play/note_curves");
+const { readMelody } = await load("sound/melody");
+const { leastStroke } = await load("least_pen");
+const { readArrangement } = await load("link_contents");
 const ask = await anyBridge();
 
 const faults = (text) =>
@@ -282,4 +286,107 @@ test("the picked patterns exist", () => {
     const names = new Set(ask({ do: "patterns" }).patterns.map(({ name }) => name));
     assert.equal(new Set(picked).size, 12);
     for (const name of picked) assert.ok(names.has(name), name);
+});
+
+const splines = [
+    "axiom: F+F+F+F\nangle factor: 4\nline: spline\n", // closed
+    "axiom: FF+F-F-FF+F+F\nangle factor: 4\nline: spline\n",
+    "axiom: F+F\nangle factor: 4\nline: spline\n", // three control points
+    "axiom: F+F-F\nangle factor: 5\nline: spline\n",
+];
+
+/// The answer to a request with its bytes in memory of their own.
+function owned(request) {
+    const { json, bytes } = ask.whole(request);
+    return { json, bytes: Uint8Array.from(bytes) };
+}
+const lines = (pattern) => owned({ do: "lines", pattern });
+
+/// The points of the control polygon, and those of the print, which the program draws by other means.
+function splineOf(text) {
+    const { json, bytes } = lines({ name: "a.lsys", text });
+    const points = new Float64Array(bytes.buffer);
+    const options = [["step", "10mm"]];
+    const made = ask.whole({ do: "make", interpreter: "draw", format: "svg", options, pattern: { name: "a.lsys", text } });
+    const svg = Buffer.from(made.bytes).toString();
+    const printed = polylinesOf(/<path[^>]* d="([^"]*)"/.exec(svg)[1])[0];
+    return { points, printed };
+}
+
+test("splines are drawn as in prints", () => {
+    for (const text of splines) {
+        const { points, printed } = splineOf(text);
+        const curve = curveOf(points);
+        const middle = (list, axis) => {
+            const all = [...list].filter((_, i) => i % 2 === axis);
+            return (Math.min(...all) + Math.max(...all)) / 2;
+        };
+        // In prints y points downwards, and the unit differs.
+        const factor = (list) => Math.max(...[0, 1].map((axis) => {
+            const all = [...list].filter((_, i) => i % 2 === axis);
+            return Math.max(...all) - Math.min(...all);
+        }));
+        const scale = factor(printed) / factor(curve);
+        const places = Array.from({ length: printed.length / 2 }, (_, i) => [
+            (printed[2 * i] - middle(printed, 0)) / scale,
+            -(printed[2 * i + 1] - middle(printed, 1)) / scale,
+        ]);
+        for (let i = 0; i < curve.length; i += 2) {
+            const [x, y] = [curve[i] - middle(curve, 0), curve[i + 1] - middle(curve, 1)];
+            const away = Math.min(...places.slice(1).map((to, k) => {
+                const [x0, y0] = places[k];
+                const [dx, dy] = [to[0] - x0, to[1] - y0];
+                const share = Math.min(1, Math.max(0, ((x - x0) * dx + (y - y0) * dy) / (dx * dx + dy * dy || 1)));
+                return Math.hypot(x - x0 - share * dx, y - y0 - share * dy);
+            }));
+            assert.ok(away < 0.02, `${text}: point ${i / 2} is ${away} steps away from the print`);
+        }
+    }
+});
+
+test("notes of a kolam lie on its curve", () => {
+    const { text } = ask({ do: "patterns" }).patterns.find(({ name }) => name === "snake-kolam");
+    const pattern = { name: "a.lsys", text };
+    const notes = owned({ do: "notes", pattern });
+    const melody = readMelody(notes.json, notes.bytes);
+    const { json, bytes } = lines(pattern);
+    const before = new Int32Array(melody.count).fill(-1);
+    const curves = NoteCurves.of(json, bytes, melody, before);
+    assert.ok(curves, "the melody was read from these lines");
+    let known = 0;
+    let least = Infinity;
+    for (let i = 0; i < melody.count; ++i) {
+        if (!curves.has(i)) continue;
+        ++known;
+        const [x, y] = curves.placeAt(i, 0.5);
+        const [x0, y0, x1, y1] = melody.path.slice(4 * i, 4 * i + 4);
+        // A B-spline stays within a step of its control polygon.
+        assert.ok(Math.hypot(x - (x0 + x1) / 2, y - (y0 + y1) / 2) <= 1);
+        least = Math.min(least, Math.hypot(x - (x0 + x1) / 2, y - (y0 + y1) / 2));
+    }
+    assert.equal(known, melody.count);
+    assert.ok(least < 0.2);
+    let traced = 0;
+    curves.traceAll({ moveTo: () => ++traced, lineTo: () => {} }, Number, Number);
+    assert.equal(traced, json.begins.length - 1);
+    // Other lines are not drawn in place of the melody's.
+    const other = lines({ name: "a.lsys", text: splines[0] });
+    assert.equal(NoteCurves.of(other.json, other.bytes, melody, before), null);
+});
+
+test("pens in steps do not vanish in large variants", () => {
+    assert.equal(leastStroke("0.22 step #fffaf0", [0, 0, 400, 300], 88, 0.7), "0.7mm #fffaf0");
+    assert.equal(leastStroke("0.22 step #fffaf0", [0, 0, 20, 27], 88, 0.7), null); // 0.22 * 88 / 27 = 0.717 mm
+    assert.equal(leastStroke("0.2mm navy", [0, 0, 4000, 300], 88, 0.7), null);
+    assert.equal(leastStroke("none", [0, 0, 4000, 300], 88, 0.7), null);
+});
+
+test("arrangements in links are checked", () => {
+    const text = '[[track]]\npattern = "hilbert"\n';
+    assert.deepEqual(readArrangement(JSON.stringify({ name: "a.toml", text })), { name: "a.toml", text });
+    for (const wrong of [undefined, "", "[]", "3", "null", "{}", JSON.stringify({ name: "../a.toml", text }),
+        JSON.stringify({ name: "a\nb", text }), JSON.stringify({ name: "a.toml", text: "axiom: F" }),
+        JSON.stringify({ name: 3, text })]) {
+        assert.equal(readArrangement(wrong), null, String(wrong));
+    }
 });

@@ -332,7 +332,16 @@ test("a scale that is dropped is played", async ({ page }) => {
 test("export writes the file and tells the command", async ({ page }) => {
     await page.getByRole("button", { name: "Export" }).click();
     const dialog = page.getByRole("dialog", { name: "Export" });
-    await dialog.getByRole("combobox", { name: "Size", exact: true }).fill("A3");
+    // Names of formats are words, and options that a kolam cannot use are not offered.
+    for (const name of ["Printed score", "Compressed MusicXML", "glTF", "WAV"]) await dialog.getByText(name, { exact: true }).waitFor();
+    await dialog.locator("[data-option=swatch]").waitFor({ state: "hidden" });
+    for (const name of ["fill-page", "light", "view"]) assert.ok(await dialog.locator(`[data-option=${name}]`).isHidden(), name);
+    assert.ok(!/--[a-z]/.test(await dialog.locator(".export-options").textContent()), "help texts do not name the command line");
+    await dialog.getByRole("combobox", { name: "Size", exact: true }).selectOption("Other…");
+    await dialog.getByRole("combobox", { name: "Other size" }).fill("50x70cm");
+    await dialog.getByRole("combobox", { name: "Other size" }).press("Enter");
+    await dialog.locator(".command", { hasText: "--size 50x70cm" }).waitFor();
+    await dialog.getByRole("combobox", { name: "Size", exact: true }).selectOption("A3");
     await dialog.getByRole("checkbox", { name: "Landscape" }).check();
     await dialog.locator(".command", { hasText: "--size A3 --landscape" }).waitFor();
     await dialog.locator("summary", { hasText: "Kolams and growth" }).click();

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { load } from "./load.mjs";
 
-const { readMelody, placeText, keyName, barsOf } = await load("sound/melody");
+const { readMelody, placeText, keyName, barsOf, barAt, barStart, beatsIn, secondsAt, tickAfter } = await load("sound/melody");
 const { Transport } = await load("sound/transport");
 const { MidiOutput, bentKey, channelOf, songPosition } = await load("sound/midi_output");
 const { timbres, timbreOf, renderTimbre, renderedKey } = await load("sound/timbres");
@@ -12,7 +12,7 @@ const { levelOf } = await load("sound/sample");
 const ticks = 480;
 const rate = 44100;
 
-function melodyOf(notes, { tempo = 120, end = 0, voices = 1 } = {}) {
+function melodyOf(notes, { tempo = 120, end = 0, voices = 1, changes = [], upbeat = 0 } = {}) {
     const bytes = new Uint8Array(
         new Float64Array(
             notes.flatMap(([onset, duration, key = 60, voice = 0, velocity = 80]) => [
@@ -31,7 +31,7 @@ function melodyOf(notes, { tempo = 120, end = 0, voices = 1 } = {}) {
     );
     const last = Math.max(end, ...notes.map(([onset, duration]) => onset + duration));
     const parts = [{ name: "part", scale: "major", program: 0, voices }];
-    return readMelody({ count: notes.length, end: last, tempo, beats: 4, unit: 4, ticks, parts }, bytes);
+    return readMelody({ count: notes.length, end: last, tempo, beats: 4, unit: 4, ticks, parts, changes, upbeat }, bytes);
 }
 
 /// Plays by an irregular clock, like a timer, and records the notes sent.
@@ -97,6 +97,62 @@ test("a change of tempo keeps the place, and hands over again what had not begun
     assert.ok(Math.abs(gaps.at(-1) - 60 / 93 / 4) < 1e-9);
 });
 
+// Two bars of 4/4 at 120 quarters a minute, three of 6/8 at 60, then 4/4 at 240.
+const sections = [
+    { onset: 3840, tempo: 60, beats: 6, unit: 8 },
+    { onset: 8160, tempo: 240, beats: 4, unit: 4 },
+];
+
+test("sections are played in their own tempos, and all in one that is chosen", () => {
+    const melody = melodyOf(Array.from({ length: 42 }, (_, i) => [i * 240, 240]), { changes: sections });
+    const { heard, transport, run, clock } = player(melody);
+    transport.setTempo(null);
+    const secondsOf = (tick) =>
+        tick <= 3840 ? tick / 960 : tick <= 8160 ? 4 + (tick - 3840) / 480 : 13 + (tick - 8160) / 1920;
+    for (const tick of [0, 100, 3840, 5000, 8160, 10000]) {
+        assert.ok(Math.abs(secondsAt(melody, tick, null) - secondsOf(tick)) < 1e-9);
+        assert.ok(Math.abs(tickAfter(melody, secondsOf(tick), null) - tick) < 1e-6);
+    }
+    transport.play();
+    run(20);
+    assert.equal(heard.length, 42);
+    const start = heard[0].time;
+    heard.forEach((note, i) => {
+        assert.ok(Math.abs(note.time - start - secondsOf(i * 240)) < 1e-9, `note ${i}`);
+        assert.ok(Math.abs(note.seconds - (secondsOf(i * 240 + 240) - secondsOf(i * 240))) < 1e-9);
+        assert.ok(note.handed <= note.time);
+    });
+    // A loop across both changes comes around in time.
+    heard.length = 0;
+    transport.setLoop({ from: 1920, to: 9120 });
+    transport.seek(1920);
+    transport.play();
+    run(60);
+    const pass = secondsOf(9120) - secondsOf(1920);
+    heard.forEach((note, i) => {
+        const expected = Math.floor(i / 30) * pass + secondsOf(1920 + (i % 30) * 240) - secondsOf(1920);
+        assert.ok(Math.abs(note.time - heard[0].time - expected) < 1e-9);
+    });
+    const tick = transport.tickAt(clock.time);
+    assert.ok(tick >= 1920 && tick < 9120);
+    transport.setTempo(90);
+    assert.ok(Math.abs(transport.tickAt(clock.time) - tick) < 1e-6);
+    assert.ok(Math.abs(transport.secondsAt(9600) - (9600 / 480) * (60 / 90)) < 1e-9);
+});
+
+test("bars follow the meters of sections, and an upbeat is bar 0", () => {
+    const melody = melodyOf([[0, 10080]], { changes: sections });
+    assert.equal(barsOf(melody), 6);
+    assert.deepEqual([0, 1, 2, 3, 4, 5, 6].map((bar) => barStart(melody, bar)), [0, 1920, 3840, 5280, 6720, 8160, 10080]);
+    assert.equal(barAt(melody, 6000), 3.5);
+    assert.deepEqual(beatsIn(melody, 2), [4080, 4320, 4560, 4800, 5040]);
+    assert.equal(placeText(melody, 5530), "Bar 4 of 6, beat 2");
+    const upbeat = melodyOf([[0, 4320]], { upbeat: 480 });
+    assert.equal(placeText(upbeat, 100), "Bar 0 of 2, beat 4");
+    assert.equal(placeText(upbeat, 480), "Bar 1 of 2, beat 1");
+    assert.deepEqual([0, 1, 2].map((bar) => barStart(upbeat, bar)), [0, 480, 2400]);
+});
+
 test("a new melody while playing keeps the place", () => {
     const first = melodyOf(Array.from({ length: 100 }, (_, i) => [i * 240, 240]));
     const second = melodyOf(Array.from({ length: 200 }, (_, i) => [i * 120, 120, 72]));
@@ -110,7 +166,7 @@ test("a new melody while playing keeps the place", () => {
     const after = heard.filter((note) => note.time > 3.1 + 4.2);
     assert.equal(second.onset[after[0].index] % 120, 0);
     for (const note of after.slice(1, -1)) {
-        const tick = before + (note.time - clock.time) / transport.secondsPerTick;
+        const tick = transport.tickAfter(before, note.time - clock.time);
         assert.ok(Number.isFinite(tick));
     }
 });

@@ -82,6 +82,12 @@ TEST(DotGrid, ReadsTheNotationsOfPractitioners) {
                               {"7x7 idukku", "7-6-7-6-7-6-7", 46, 111},
                               {"15x9-9x3", "9-9-9-15-15-15-15-15-15-15-15-15-9-9-9", 189, 348},
                               {"7x3 to 3", "3-5-7-7-7-5-3", 37, 60},
+                              {"ஏழு", "1x7", 7, 6},
+                              {"ஏழு முதல் ஒன்று வரை நேர்ப்புள்ளி", "1-3-5-7-5-3-1", 25, 36},
+                              {"7 புள்ளி 1 வரை", "1-3-5-7-5-3-1", 25, 36},
+                              {"௧௫ இடுக்குப் புள்ளி ௮ வரை", "15-8 idukku", 169, 462},
+                              {"பதினைந்து-எட்டு இடுக்கு", "15-8 idukku", 169, 462},
+                              {"௭x௭", "7x7", 49, 84},
                               {".o./ooo/.o.", "1-3-1", 5, 4},
                               {"ooo\no.o\r\nooo\n", "ooo/o.o/ooo", 8, 8},
                               {"•••/•_•", "ooo/o.o", 5, 4},
@@ -124,6 +130,9 @@ TEST(DotGrid, RefusesWhatIsNoGrid) {
     EXPECT_TRUE(has(error_of([] { parse_dot_grid("7-4 ner pulli"); }), "rows from 7 never reach 4"));
     EXPECT_TRUE(has(error_of([] { parse_dot_grid("7x3 to 4"); }), "interlaced rows of the same length"));
     EXPECT_TRUE(has(error_of([] { parse_dot_grid("1-3-5-3-1 idukku"); }), "odd and even numbers"));
+    EXPECT_TRUE(has(error_of([] { parse_dot_grid("ஏழு மயில்"); }), "unknown word 'மயில்'"));
+    EXPECT_THROW(parse_dot_grid("7 வரை"), std::runtime_error);
+    EXPECT_THROW(parse_dot_grid("7 1"), std::runtime_error);
     EXPECT_TRUE(has(error_of([] { parse_dot_grid("ner 7-6-7 idukku"); }), "either straight or interlaced"));
     EXPECT_TRUE(has(error_of([] { parse_dot_grid("o o o/o  o"); }), "column 4 of row 2"));
     EXPECT_NE(error_of([] { DotGrid({}); }), "");

@@ -230,13 +230,16 @@ async function use(browser, name) {
   assert.equal(await page.locator("#count").textContent(), `${await entries.count()} of ${all}`);
   assert.ok(await entries.count() >= 3 && await entries.count() < all);
 
-  // Open in the studio: the link contains the pattern, and its text appears there.
+  // Open in the studio: the link contains the pattern, which is bundled and opens at once.
   await page.goto(home + "pattern/hilbert.html");
   await page.getByRole("link", {name: "Open in the studio"}).click();
-  await page.getByRole("dialog").getByText("axiom: X").first().waitFor({timeout: 120_000});
-  await page.getByRole("button", {name: "Open", exact: true}).last().click();
+  await page.locator("#work-title").getByText("Hilbert curve").waitFor({timeout: 120_000});
   await page.locator("#facts").getByText("No errors").waitFor();
-  await page.locator("#work-title").getByText("Hilbert curve").waitFor();
+
+  // An arrangement opens in Play.
+  await page.goto(home + "pattern/blues.html");
+  await page.getByRole("link", {name: "Open in the studio"}).click();
+  await page.locator(".play-arranged:visible").waitFor({timeout: 120_000});
 
   // The player plays the notes that the MIDI file has, in time; pauses, goes to a place, ends.
   await page.goto(home + "pattern/hilbert-kalyani.html");

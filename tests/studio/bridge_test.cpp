@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstring>
 #include <filesystem>
+#include <set>
+#include <string>
 
 #include <nlohmann/json.hpp>
 
@@ -164,8 +168,56 @@ TEST(Bridge, FindsTheLargestDerivationLengthThatIsDrawn) {
 
 TEST(Bridge, ReportsMaps) {
     const std::string checkers = "map: clockwise\nderivation length: 2\naxiom: A~B~AB\nA --> B[-A][+~A]B\nB --> ~A\n";
-    EXPECT_TRUE(asked({{"do", "open"}, {"pattern", pattern(checkers)}})["is_map"].get<bool>());
+    const Json answer = asked({{"do", "open"}, {"pattern", pattern(checkers)}});
+    EXPECT_TRUE(answer["is_map"].get<bool>());
+    // Each of the two steps divides every cell.
+    EXPECT_EQ(answer["cost"]["cells"], "4");
+    EXPECT_EQ(answer["cost"]["symbols"], "");
+    const Json large = pattern(checkers, pairs({{"derivation length", "60"}}));
+    EXPECT_EQ(asked({{"do", "open"}, {"pattern", large}})["cost"]["cells"], "");
+    // The maps of all steps together have 3 x 10^6 edges: each has about twice as many as the one before.
+    const Json affordable = asked({{"do", "affordable"}, {"seconds", 600}, {"pattern", large}});
+    const int n = std::stoi(affordable["n"].get<std::string>());
+    EXPECT_GE(n, 18);
+    EXPECT_LE(n, 21);
     EXPECT_FALSE(asked({{"do", "open"}, {"pattern", pattern(koch)}})["is_map"].get<bool>());
+}
+
+TEST(Bridge, ListsOptionsThatDoNotApply) {
+    const auto unfit = [](const std::string& text, const char* format, const Json& options = Json::array()) {
+        const Json question = {{"do", "unfit"}, {"format", format}, {"options", options}, {"pattern", pattern(text)}};
+        return asked(question)["options"].get<std::set<std::string>>();
+    };
+    const std::set<std::string> lines = unfit(koch, "svg");
+    for (const char* name : {"swatch", "fill-page", "light", "view", "gcode-start", "compression", "overlap"})
+        EXPECT_EQ(lines.count(name), 1U) << name;
+    for (const char* name : {"size", "dots", "border", "plotter", "bleed", "generations"})
+        EXPECT_EQ(lines.count(name), 0U) << name;
+    // What another option needs or excludes follows it.
+    EXPECT_EQ(unfit(koch, "svg", pairs({{"tile", "A4"}})).count("overlap"), 0U);
+    EXPECT_EQ(unfit(koch, "svg", pairs({{"plotter", "true"}})).count("tile"), 1U);
+    EXPECT_EQ(lines.count("pen-width"), 1U);
+    EXPECT_EQ(unfit(koch, "svg", pairs({{"plotter", "true"}})).count("pen-width"), 0U);
+    // An option that is what a rule asks for is offered.
+    EXPECT_EQ(unfit(koch, "obj").count("relief"), 0U);
+    EXPECT_EQ(unfit(koch, "obj").count("base"), 1U);
+    EXPECT_EQ(unfit(koch, "obj", pairs({{"relief", ""}})).count("base"), 0U);
+    EXPECT_EQ(unfit("axiom: {F+F+F+F}\n", "svg").count("swatch"), 0U);
+    EXPECT_EQ(unfit("axiom: F&F\n", "png").count("light"), 0U);
+    EXPECT_EQ(unfit("axiom: F&F\n", "svg").count("border"), 1U);
+    EXPECT_EQ(unfit(koch, "stl").count("base"), 0U);
+    EXPECT_EQ(kind_of_failure({{"do", "unfit"}, {"format", "xyz"}, {"pattern", pattern(koch)}}), "request");
+}
+
+TEST(Bridge, TracesTheControlPolygonOfASpline) {
+    const Json question = {{"do", "lines"}, {"pattern", pattern("axiom: F+f+F[-F]\nline: spline\n")}};
+    const Reply reply = request(question.dump(), {});
+    EXPECT_EQ(Json::parse(reply.json)["begins"], (Json{0, 4, 6}));
+    ASSERT_EQ(reply.bytes.size(), 6 * 2 * sizeof(double));
+    std::array<double, 12> places{};
+    std::memcpy(places.data(), reply.bytes.data(), sizeof places);
+    const std::array<double, 12> expected = {0, 0, 0, 1, 1, 1, 1, 0, 1, 0, 2, 0};
+    for (std::size_t i = 0; i < places.size(); ++i) EXPECT_NEAR(places[i], expected[i], 1e-12) << i;
 }
 
 TEST(Bridge, OriginsStopInTime) {

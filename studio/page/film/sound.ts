@@ -1,5 +1,5 @@
 // Plays a melody into memory, with the voices of the page.
-import type { Melody } from "../sound/melody";
+import { secondsAt, type Melody } from "../sound/melody";
 import { Renderer } from "../sound/renderer";
 import { SoundOutput, type VoiceSettings } from "../sound/sound_output";
 import { timbreNamed, timbreOf } from "../sound/timbres";
@@ -18,19 +18,19 @@ export function usualVoices(melody: Melody): VoiceSettings[] {
 }
 
 /// The seconds of a melody, without the time in which it dies away.
-export function secondsOf(melody: Melody, tempo: number): number {
-    return (melody.end * 60) / (tempo * melody.ticks);
+export function secondsOf(melody: Melody, tempo: number | null): number {
+    return secondsAt(melody, melody.end, tempo);
 }
 
-/// Plays the first `longest_sound` seconds at most. @param tempo  quarter notes a minute
-export async function renderSound(melody: Melody, voices: VoiceSettings[], tempo: number, volume: number): Promise<AudioBuffer> {
+/// Plays the first `longest_sound` seconds at most. @param tempo  quarter notes a minute; null: those of the melody
+export async function renderSound(melody: Melody, voices: VoiceSettings[], tempo: number | null, volume: number): Promise<AudioBuffer> {
     const seconds = Math.min(secondsOf(melody, tempo), longest_sound);
-    const secondsPerTick = 60 / (tempo * melody.ticks);
+    const onset = (note: number) => secondsAt(melody, melody.onset[note]!, tempo);
     const context = new OfflineAudioContext(2, Math.ceil((seconds + tail) * rate), rate);
     const renderer = new Renderer(context);
     try {
         const notes = Array.from({ length: melody.count }, (_, note) => note).filter(
-            (note) => melody.onset[note]! * secondsPerTick < seconds,
+            (note) => onset(note) < seconds,
         );
         const timbreOfNote = (note: number) => timbreNamed(voices[melody.voice[note]!]?.timbre ?? "piano");
         await renderer.prepare(notes.map((note) => [timbreOfNote(note), melody.key[note]!] as const));
@@ -39,7 +39,8 @@ export async function renderSound(melody: Melody, voices: VoiceSettings[], tempo
         output.setVoices(voices);
         output.master.setVolume(volume);
         for (const note of notes) {
-            output.note(note, melody.onset[note]! * secondsPerTick, melody.duration[note]! * secondsPerTick);
+            const end = secondsAt(melody, melody.onset[note]! + melody.duration[note]!, tempo);
+            output.note(note, onset(note), end - onset(note));
         }
         return await context.startRendering();
     } finally {

@@ -2,6 +2,7 @@
 // the current position.
 import type { Melody } from "../sound/melody";
 import { eachSounding, firstFrom } from "../sound/melody";
+import type { NoteCurves } from "./note_curves";
 import type { Ink } from "./surface";
 import { readInk, Surface } from "./surface";
 import { voiceColour } from "./voice_colours";
@@ -26,6 +27,9 @@ export class CurveView {
     private left = 0;
     private top = 0;
     private muted: (voice: number) => boolean = () => false;
+    private curves: NoteCurves | null = null; // of splines
+    private readonly toX = (value: number): number => this.x(value);
+    private readonly toY = (value: number): number => this.y(value);
 
     constructor(
         readonly canvas: HTMLCanvasElement,
@@ -36,6 +40,7 @@ export class CurveView {
 
     show(melody: Melody | null): void {
         this.melody = melody;
+        this.curves = null;
         this.byEnd = new Uint32Array(0);
         if (melody) {
             const end = (i: number) => melody.onset[i] + melody.duration[i];
@@ -46,6 +51,13 @@ export class CurveView {
             this.before = leading(melody);
         }
         this.reset();
+    }
+
+    /// Draws the curves of splines instead of their control polygons.
+    /// @param find  makes them, with the note that leads to each
+    setCurves(find: (before: Int32Array) => NoteCurves | null): void {
+        this.curves = find(this.before);
+        if (this.curves) this.reset();
     }
 
     setMuted(muted: (voice: number) => boolean): void {
@@ -104,15 +116,17 @@ export class CurveView {
         layer.lineWidth = Math.min(2, this.thickness * 0.55);
         layer.lineCap = "round";
         layer.lineJoin = "round";
-        const end = Math.min(melody.count, this.faintCount + most_traced);
+        const end = this.curves ? melody.count : Math.min(melody.count, this.faintCount + most_traced);
         layer.beginPath();
-        for (let i = this.faintCount; i < end; ++i) this.trace(melody, layer, i, 1);
+        this.curves?.traceAll(layer, this.toX, this.toY);
+        for (let i = this.faintCount; i < end; ++i) if (!this.curves?.has(i)) this.trace(melody, layer, i, 1);
         layer.stroke();
         this.faintCount = end;
     }
 
     /// Traces the run that leads to the note, and a share of the note's own piece.
     private trace(melody: Melody, layer: CanvasRenderingContext2D, i: number, share: number): void {
+        if (this.curves?.has(i)) return this.curves.trace(layer, i, share, this.toX, this.toY);
         const { path } = melody;
         const before = this.before[i];
         const x0 = path[4 * i];
@@ -124,6 +138,13 @@ export class CurveView {
             layer.moveTo(this.x(x0), this.y(y0));
         }
         layer.lineTo(this.x(x0 + share * (path[4 * i + 2] - x0)), this.y(y0 + share * (path[4 * i + 3] - y0)));
+    }
+
+    /// The place after a share of a note, in turtle steps.
+    private placeAt({ path }: Melody, i: number, share: number): [number, number] {
+        if (this.curves?.has(i)) return this.curves.placeAt(i, share);
+        const along = (axis: number) => path[4 * i + axis] + share * (path[4 * i + 2 + axis] - path[4 * i + axis]);
+        return [along(0), along(1)];
     }
 
     private ended(melody: Melody, at: number, tick: number): boolean {
@@ -164,9 +185,7 @@ export class CurveView {
         const side = Math.min(220, height * 0.5, width * 0.4);
         const now = Math.max(0, firstFrom(melody, tick + 1e-6) - 1);
         const share = Math.min(1, Math.max(0, (tick - melody.onset[now]) / melody.duration[now]));
-        const { path } = melody;
-        const x = path[4 * now] + share * (path[4 * now + 2] - path[4 * now]);
-        const y = path[4 * now + 1] + share * (path[4 * now + 3] - path[4 * now + 1]);
+        const [x, y] = this.placeAt(melody, now, share);
         const whole = [this.scale, this.left, this.top] as const;
         const [left, top] = [width - side - 14, height - side - 14];
         context.save();
@@ -227,9 +246,8 @@ export class CurveView {
 
     private drawHead(melody: Melody, i: number, share: number, scale: number): void {
         const { context } = this.surface;
-        const { path } = melody;
-        const x = this.x(path[4 * i] + share * (path[4 * i + 2] - path[4 * i]));
-        const y = this.y(path[4 * i + 1] + share * (path[4 * i + 3] - path[4 * i + 1]));
+        const [right, up] = this.placeAt(melody, i, share);
+        const [x, y] = [this.x(right), this.y(up)];
         const radius = Math.max(scale < fine_scale ? 3.5 : 4.5, this.thickness * 1.1);
         const colour = voiceColour(melody.voice[i], this.ink.isDark);
         context.globalAlpha = 0.22;
@@ -253,7 +271,18 @@ export class CurveView {
         if (!melody) return null;
         let nearest = 40 * 40;
         let found: number | null = null;
+        const shares = [0.1, 0.3, 0.5, 0.7, 0.9];
         for (let i = 0; i < melody.count; ++i) {
+            if (this.curves?.has(i)) {
+                for (const share of shares) {
+                    const [right, up] = this.curves.placeAt(i, share);
+                    const distance = (x - this.x(right)) ** 2 + (y - this.y(up)) ** 2;
+                    if (distance >= nearest) continue;
+                    nearest = distance;
+                    found = melody.onset[i] + share * melody.duration[i];
+                }
+                continue;
+            }
             const x0 = this.x(melody.path[4 * i]);
             const y0 = this.y(melody.path[4 * i + 1]);
             const dx = this.x(melody.path[4 * i + 2]) - x0;

@@ -267,7 +267,7 @@ export class Player {
         this.lastPrepared = now;
         const wanted = new Map<string, [ReturnType<typeof timbreNamed>, number]>();
         const from = this.transport.tickAt(this.now());
-        const until = from + 8 / this.transport.secondsPerTick;
+        const until = this.transport.tickAfter(from, 8);
         for (let i = firstFrom(melody, from); i < melody.count && melody.onset[i] < until; ++i) {
             const timbre = timbreNamed(this.voices[melody.voice[i]]?.timbre ?? "piano");
             wanted.set(`${timbre.name} ${Math.round(melody.key[i])}`, [timbre, melody.key[i]]);

@@ -1,7 +1,7 @@
 // The piano roll: time to the right, pitch upwards, bars with their numbers.
 import { isStill } from "../map_motion";
 import type { Melody } from "../sound/melody";
-import { barsOf, eachSounding, keyName, placeText } from "../sound/melody";
+import { barAt, barsOf, barStart, beatsIn, eachSounding, keyName, placeText } from "../sound/melody";
 import type { Loop } from "../sound/transport";
 import type { Ink } from "./surface";
 import { readInk, Surface } from "./surface";
@@ -171,19 +171,19 @@ export class RollView {
         context.font = `11px ${getComputedStyle(this.canvas).fontFamily}`;
         context.textBaseline = "middle";
         const isWide = melody.beat * this.pixels > 14;
-        const last = Math.min(barsOf(melody), Math.ceil(right / melody.bar));
-        for (let bar = Math.floor(Math.max(0, this.left) / melody.bar / every) * every; bar <= last; bar += every) {
-            const x = Math.round(this.x(bar * melody.bar));
+        const last = Math.min(barsOf(melody), Math.ceil(barAt(melody, right)));
+        const first = Math.max(0, Math.floor(barAt(melody, Math.max(0, this.left)) / every) * every);
+        for (let bar = first; bar <= last; bar += every) {
+            const x = Math.round(this.x(barStart(melody, bar)));
             context.fillStyle = ink.line;
             context.fillRect(x, 0, 1, surface.height);
             context.fillStyle = ink.faint;
-            if (bar < barsOf(melody)) context.fillText(String(bar + 1), x + 5, ruler / 2 - 1);
+            if (bar < barsOf(melody)) context.fillText(String(bar + melody.firstBar), x + 5, ruler / 2 - 1);
             if (!isWide || every > 1) continue;
             context.fillStyle = ink.line;
             context.globalAlpha = 0.5;
-            for (let beat = 1; beat < melody.beats; ++beat) {
-                const at = bar * melody.bar + beat * melody.beat;
-                if (at < melody.end) context.fillRect(Math.round(this.x(at)), ruler, 1, surface.height);
+            for (const at of beatsIn(melody, bar)) {
+                if (at > 0 && at < melody.end) context.fillRect(Math.round(this.x(at)), ruler, 1, surface.height);
             }
             context.globalAlpha = 1;
         }
@@ -263,9 +263,9 @@ export class RollView {
     }
 
     private wholeBars(melody: Melody, a: number, b: number): Loop {
-        const from = Math.max(0, Math.floor(Math.min(a, b) / melody.bar));
-        const to = Math.max(from + 1, Math.min(barsOf(melody), Math.ceil(Math.max(a, b) / melody.bar)));
-        return { from: from * melody.bar, to: Math.min(to * melody.bar, melody.end) };
+        const from = Math.max(0, Math.floor(barAt(melody, Math.min(a, b))));
+        const to = Math.max(from + 1, Math.min(barsOf(melody), Math.ceil(barAt(melody, Math.max(a, b)))));
+        return { from: barStart(melody, from), to: Math.min(barStart(melody, to), melody.end) };
     }
 
     private release(event: PointerEvent): void {

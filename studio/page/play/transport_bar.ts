@@ -1,7 +1,7 @@
 // Play, stop, loop, tempo, volume, and the current position.
 import { button, element, icon, slideTo } from "../elements";
 import type { Melody } from "../sound/melody";
-import { barsOf, placeText } from "../sound/melody";
+import { barAt, barsOf, barStart, placeText } from "../sound/melody";
 import type { Loop } from "../sound/transport";
 import { remember, remembered } from "../storage";
 import type { Player } from "./player";
@@ -99,7 +99,7 @@ export class TransportBar {
             const bars = { PageUp: -1, PageDown: 1 }[event.key];
             if (!melody || bars === undefined) return;
             event.preventDefault();
-            acts.seek(Math.round(player.place() / melody.bar + bars) * melody.bar);
+            acts.seek(barStart(melody, Math.max(0, Math.round(barAt(melody, player.place()) + bars))));
         });
         this.tempo.addEventListener("input", () => acts.tempo(this.tempo.valueAsNumber));
         this.tempo.addEventListener("dblclick", () => acts.tempo(null));
@@ -123,8 +123,12 @@ export class TransportBar {
         const { melody } = this.player;
         if (!melody) return;
         const bars = barsOf(melody);
-        const from = Math.min(bars, Math.max(1, Math.round(Number(this.from.value)) || this.bars[0]));
-        const to = Math.min(bars, Math.max(from, Math.round(Number(this.to.value)) || this.bars[1]));
+        const place = (field: HTMLInputElement, old: number): number => {
+            const number = Math.round(Number(field.value));
+            return field.value.trim() === "" || Number.isNaN(number) ? old : number + 1 - melody.firstBar;
+        };
+        const from = Math.min(bars, Math.max(1, place(this.from, this.bars[0])));
+        const to = Math.min(bars, Math.max(from, place(this.to, this.bars[1])));
         this.bars = [from, to];
         this.applyLoop();
     }
@@ -133,7 +137,7 @@ export class TransportBar {
         const { melody } = this.player;
         if (isLooping && melody) {
             // Four bars from the current position, unless it is in the chosen range.
-            const bar = Math.min(barsOf(melody), Math.floor(this.player.place() / melody.bar) + 1);
+            const bar = Math.min(barsOf(melody), Math.floor(barAt(melody, this.player.place())) + 1);
             const [from, to] = this.bars;
             if (bar < from || bar > to) this.bars = [bar, Math.min(barsOf(melody), bar + 3)];
         }
@@ -145,7 +149,7 @@ export class TransportBar {
     setLoop(loop: Loop): void {
         const { melody } = this.player;
         if (!melody) return;
-        this.bars = [Math.round(loop.from / melody.bar) + 1, Math.ceil(loop.to / melody.bar - 1e-6)];
+        this.bars = [Math.round(barAt(melody, loop.from)) + 1, Math.ceil(barAt(melody, loop.to) - 1e-6)];
         this.isLooping = true;
         this.applyLoop();
     }
@@ -153,13 +157,14 @@ export class TransportBar {
     private applyLoop(): void {
         const { melody, transport } = this.player;
         const [from, to] = this.bars;
-        const range = melody && { from: (from - 1) * melody.bar, to: Math.min(to * melody.bar, melody.end) };
+        const range = melody && { from: barStart(melody, from - 1), to: Math.min(barStart(melody, to), melody.end) };
         const loop = this.isLooping ? range : null;
         transport.setLoop(loop);
         this.loop.setAttribute("aria-pressed", String(this.isLooping));
         this.range.hidden = !this.isLooping;
-        this.from.value = String(from);
-        this.to.value = String(to);
+        const beforeFirst = (melody?.firstBar ?? 1) - 1;
+        this.from.value = String(from + beforeFirst);
+        this.to.value = String(to + beforeFirst);
         this.acts.looped(loop);
     }
 
@@ -206,9 +211,11 @@ export class TransportBar {
     showPlace(melody: Melody, tick: number): void {
         const text = placeText(melody, tick);
         if (this.place.textContent !== text) this.place.textContent = text;
-        const { secondsPerTick } = this.player.transport;
-        const time = `${timeText(tick * secondsPerTick)} / ${timeText(melody.end * secondsPerTick)}`;
+        const { transport } = this.player;
+        const time = `${timeText(transport.secondsAt(tick))} / ${timeText(transport.secondsAt(melody.end))}`;
         if (this.time.textContent !== time) this.time.textContent = time;
+        const tempo = Math.round(transport.tempoAt(tick) * 100) / 100;
+        if (String(tempo) !== this.tempoText) this.showTempo(tempo);
         const beat = String(Math.round(tick / melody.beat));
         if (this.position.value !== beat) {
             this.position.value = beat;

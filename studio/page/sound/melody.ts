@@ -7,11 +7,12 @@ export interface Melody {
     readonly count: number;
     readonly end: number; // ticks, including rests
     readonly ticks: number; // per quarter note
-    readonly bar: number; // ticks
-    readonly beat: number; // ticks
-    readonly beats: number; // per bar
-    readonly tempo: number; // quarter notes per minute
-    readonly changesTempo: boolean; // after the beginning
+    readonly bar: number; // ticks, at the beginning
+    readonly beat: number; // ticks, at the beginning
+    readonly meters: readonly Meter[]; // the first, and its changes
+    readonly firstBar: number; // its number: 0 for an upbeat
+    readonly tempo: number; // quarter notes per minute, at the beginning
+    readonly tempos: readonly Tempo[]; // the first, and its changes
     readonly parts: Notes["parts"];
     readonly voices: number;
     readonly partOfVoice: number[];
@@ -27,6 +28,22 @@ export interface Melody {
     readonly symbol: Float64Array; // position in the word, -1: unknown
     readonly glides: ReadonlyMap<number, Glide>; // by note
     readonly box: [number, number, number, number]; // of the curve: x0, y0, x1, y1
+}
+
+/// A meter from a bar line on.
+export interface Meter {
+    onset: number; // ticks; below 0 before an upbeat
+    beats: number; // per bar
+    beat: number; // ticks
+    bar: number; // ticks
+    before: number; // bars before it
+}
+
+/// A tempo from a tick on.
+export interface Tempo {
+    onset: number;
+    tempo: number; // quarter notes per minute
+    seconds: number; // from the beginning
 }
 
 /// A slide of the pitch at the end of a note.
@@ -66,16 +83,17 @@ export function readMelody(notes: Notes, bytes: Uint8Array): Melody {
     );
     const partOfVoice = notes.parts.flatMap((part, index) => Array<number>(part.voices).fill(index));
     while (partOfVoice.length < voices) partOfVoice.push(Math.max(0, notes.parts.length - 1));
-    const unit = (4 * notes.ticks) / notes.unit;
+    const meters = metersOf(notes);
     return {
         count,
         end: Math.max(notes.end, 1),
         ticks: notes.ticks,
-        bar: unit * notes.beats,
-        beat: unit,
-        beats: notes.beats,
+        bar: meters[0]!.bar,
+        beat: meters[0]!.beat,
+        meters,
+        firstBar: notes.upbeat ? 0 : 1,
         tempo: notes.tempo,
-        changesTempo: (notes.changes ?? []).some(({ tempo }) => Math.abs(tempo - notes.tempo) > 1e-9),
+        tempos: temposOf(notes),
         parts: notes.parts,
         voices,
         partOfVoice,
@@ -145,14 +163,96 @@ export function eachSounding(melody: Melody, begin: number, end: number, see: (n
     }
 }
 
-export const barsOf = (melody: Melody): number => Math.max(1, Math.ceil(melody.end / melody.bar - 1e-9));
+function metersOf({ beats, unit, ticks, upbeat = 0, changes = [] }: Notes): Meter[] {
+    const meterOf = (onset: number, beats: number, unit: number, before: number): Meter => {
+        const beat = (4 * ticks) / unit;
+        return { onset, beats, beat, bar: beats * beat, before };
+    };
+    const first = meterOf(0, beats, unit, 0);
+    const meters = [upbeat > 0 ? { ...first, onset: upbeat - first.bar } : first];
+    for (const change of changes) {
+        const last = meters.at(-1)!;
+        const next = meterOf(change.onset, change.beats ?? last.beats, change.unit ?? (4 * ticks) / last.beat, 0);
+        if (next.beats === last.beats && next.beat === last.beat) continue;
+        next.before = last.before + Math.ceil((next.onset - last.onset) / last.bar - 1e-9);
+        meters.push(next);
+    }
+    return meters;
+}
+
+function temposOf({ tempo, ticks, changes = [] }: Notes): Tempo[] {
+    const tempos: Tempo[] = [{ onset: 0, tempo, seconds: 0 }];
+    for (const { onset, tempo: next } of changes) {
+        const last = tempos.at(-1)!;
+        if (Math.abs(next - last.tempo) < 1e-9) continue;
+        const seconds = last.seconds + ((onset - last.onset) * 60) / (last.tempo * ticks);
+        tempos.push({ onset, tempo: next, seconds });
+    }
+    return tempos;
+}
+
+/// The last entry for which `isAfter` is false; the first one if it is true for all.
+function lastBefore<Entry>(entries: readonly Entry[], isAfter: (entry: Entry) => boolean): Entry {
+    let low = 0;
+    let high = entries.length - 1;
+    while (low < high) {
+        const middle = (low + high + 1) >> 1;
+        if (isAfter(entries[middle]!)) high = middle - 1;
+        else low = middle;
+    }
+    return entries[low]!;
+}
+
+/// Quarter notes per minute at a tick. @param chosen  a tempo for the whole piece; null: its own tempos
+export function tempoAt(melody: Melody, tick: number, chosen: number | null): number {
+    return chosen ?? lastBefore(melody.tempos, ({ onset }) => onset > tick).tempo;
+}
+
+/// Seconds from the beginning to a tick. @param chosen  as in tempoAt()
+export function secondsAt(melody: Melody, tick: number, chosen: number | null): number {
+    if (chosen !== null) return (tick * 60) / (chosen * melody.ticks);
+    const { onset, tempo, seconds } = lastBefore(melody.tempos, (each) => each.onset > tick);
+    return seconds + ((tick - onset) * 60) / (tempo * melody.ticks);
+}
+
+/// The tick at a time after the beginning. @param chosen  as in tempoAt()
+export function tickAfter(melody: Melody, time: number, chosen: number | null): number {
+    if (chosen !== null) return (time * chosen * melody.ticks) / 60;
+    const { onset, tempo, seconds } = lastBefore(melody.tempos, (each) => each.seconds > time);
+    return onset + ((time - seconds) * tempo * melody.ticks) / 60;
+}
+
+/// The meter at a tick.
+const meterAt = (melody: Melody, tick: number): Meter => lastBefore(melody.meters, ({ onset }) => onset > tick);
+
+/// The bar at a tick, counted from 0; whole at bar lines, else between those of the bar lines around it.
+export function barAt(melody: Melody, tick: number): number {
+    const meter = meterAt(melody, tick);
+    return meter.before + (tick - meter.onset) / meter.bar;
+}
+
+/// The tick at which a bar begins, counted from 0.
+export function barStart(melody: Melody, bar: number): number {
+    const meter = lastBefore(melody.meters, ({ before }) => before > bar);
+    return Math.max(0, meter.onset + (bar - meter.before) * meter.bar);
+}
+
+/// The ticks of the beats of a bar, without the first.
+export function beatsIn(melody: Melody, bar: number): number[] {
+    const meter = lastBefore(melody.meters, ({ before }) => before > bar);
+    const start = meter.onset + (bar - meter.before) * meter.bar;
+    return Array.from({ length: meter.beats - 1 }, (_, beat) => start + (beat + 1) * meter.beat);
+}
+
+export const barsOf = (melody: Melody): number => Math.max(1, Math.ceil(barAt(melody, melody.end) - 1e-9));
 
 /// `Bar 12 of 64, beat 3`
 export function placeText(melody: Melody, tick: number): string {
     const inside = Math.min(Math.max(0, tick), melody.end - 1e-6);
-    const bar = Math.floor(inside / melody.bar);
-    const beat = Math.floor((inside - bar * melody.bar) / melody.beat);
-    return `Bar ${bar + 1} of ${barsOf(melody)}, beat ${beat + 1}`;
+    const meter = meterAt(melody, inside);
+    const bar = Math.floor(barAt(melody, inside));
+    const beat = Math.floor((inside - meter.onset - (bar - meter.before) * meter.bar) / meter.beat);
+    return `Bar ${bar + melody.firstBar} of ${barsOf(melody) + melody.firstBar - 1}, beat ${beat + 1}`;
 }
 
 const letters = ["C", "C♯", "D", "E♭", "E", "F", "F♯", "G", "G♯", "A", "B♭", "B"];

@@ -1,7 +1,7 @@
 // The times at which notes are played. All times are computed from whole ticks and one anchor, so that rounding errors
 // do not accumulate.
 import type { Melody } from "./melody";
-import { eachSounding, firstFrom } from "./melody";
+import { eachSounding, firstFrom, secondsAt, tempoAt, tickAfter } from "./melody";
 
 /// Receives notes. Times are in seconds of the clock.
 export interface NoteSink {
@@ -28,7 +28,7 @@ export class Transport {
     onEnd: () => void = () => {};
 
     private melody: Melody | null = null;
-    private tempo = 120;
+    private chosen: number | null = null; // quarter notes per minute; null: those of the melody
     private loopRange: Loop | null = null;
     private anchorTick = 0;
     private anchorTime = 0;
@@ -41,8 +41,21 @@ export class Transport {
         private readonly sinks: NoteSink[],
     ) {}
 
-    get secondsPerTick(): number {
-        return 60 / (this.tempo * (this.melody?.ticks ?? 480));
+    /// Quarter notes per minute for the whole piece; null: it has its own tempos.
+    get tempo(): number | null {
+        return this.chosen;
+    }
+    /// Quarter notes per minute at a tick.
+    tempoAt(tick: number): number {
+        return this.melody ? tempoAt(this.melody, tick, this.chosen) : (this.chosen ?? 120);
+    }
+    /// Seconds from the beginning of the melody to a tick.
+    secondsAt(tick: number): number {
+        return this.melody ? secondsAt(this.melody, tick, this.chosen) : 0;
+    }
+    /// The tick that is played some seconds after another, without loops.
+    tickAfter(tick: number, seconds: number): number {
+        return this.melody ? tickAfter(this.melody, this.secondsAt(tick) + seconds, this.chosen) : tick;
     }
     get loop(): Loop | null {
         return this.loopRange;
@@ -51,15 +64,11 @@ export class Transport {
     /// The position in the melody at a time of the clock.
     tickAt(time: number): number {
         if (!this.playing) return this.anchorTick;
-        const straight = this.anchorTick + Math.max(0, time - this.anchorTime) / this.secondsPerTick;
-        return this.wrapped(straight);
-    }
-
-    private wrapped(straight: number): number {
+        const passed = this.secondsAt(this.anchorTick) + Math.max(0, time - this.anchorTime);
         const loop = this.activeLoop();
-        const end = this.melody?.end ?? 0;
-        if (!loop || straight < loop.to) return Math.min(straight, end);
-        return loop.from + ((straight - loop.to) % (loop.to - loop.from));
+        const end = loop ? this.secondsAt(loop.to) : Infinity;
+        if (!loop || passed < end) return Math.min(this.tickAfter(0, passed), this.melody?.end ?? 0);
+        return this.tickAfter(loop.from, (passed - end) % (end - this.secondsAt(loop.from)));
     }
 
     /// A loop that ends before the anchor is not entered again.
@@ -67,9 +76,21 @@ export class Transport {
         return this.loopRange && this.anchorTick < this.loopRange.to ? this.loopRange : null;
     }
 
-    /// The time of a tick, counted from the anchor without loops.
+    /// The time of a tick, counted from the anchor without loops: beyond the end of a loop, its ticks follow again.
     private timeOf(straight: number): number {
-        return this.anchorTime + (straight - this.anchorTick) * this.secondsPerTick;
+        const loop = this.activeLoop();
+        let seconds = -this.secondsAt(this.anchorTick);
+        if (loop && straight > loop.to) {
+            const ticks = loop.to - loop.from;
+            const passes = Math.floor((straight - loop.to) / ticks);
+            const from = this.secondsAt(loop.from);
+            const end = this.secondsAt(loop.to);
+            seconds += end + passes * (end - from) - from;
+            seconds += this.secondsAt(loop.from + (straight - loop.to - passes * ticks));
+        } else {
+            seconds += this.secondsAt(straight);
+        }
+        return this.anchorTime + seconds;
     }
 
     private straight(onset: number): number {
@@ -118,14 +139,15 @@ export class Transport {
         this.nextClock = Math.ceil((this.anchorTick * clocks) / melody.ticks - 1e-9);
         eachSounding(melody, this.anchorTick, this.anchorTick + 1e-9, (index) => {
             const left = melody.onset[index] + melody.duration[index] - this.anchorTick;
-            if (melody.onset[index] < this.anchorTick) this.hand(index, time, left);
+            if (melody.onset[index] < this.anchorTick) this.hand(index, time, this.anchorTick, left);
         });
     }
 
-    setTempo(tempo: number): void {
-        if (tempo === this.tempo || !(tempo > 0)) return;
+    /// @param tempo  quarter notes per minute for the whole piece; null: the tempos of the melody
+    setTempo(tempo: number | null): void {
+        if (tempo === this.chosen || (tempo !== null && !(tempo > 0))) return;
         this.keepingPlace(() => {
-            this.tempo = tempo;
+            this.chosen = tempo;
         });
     }
 
@@ -185,15 +207,15 @@ export class Transport {
             const end = loop
                 ? Math.min(onset + melody.duration[this.next], loop.to)
                 : onset + melody.duration[this.next];
-            this.hand(this.next, time, end - onset);
+            this.hand(this.next, time, onset, end - onset);
             ++this.next;
         }
         this.sendClocks(until, melody);
         if (!loop && now >= this.timeOf(melody.end)) this.finish(melody);
     }
 
-    private hand(index: number, time: number, ticks: number): void {
-        const seconds = Math.max(0.01, ticks * this.secondsPerTick);
+    private hand(index: number, time: number, from: number, ticks: number): void {
+        const seconds = Math.max(0.01, this.secondsAt(from + ticks) - this.secondsAt(from));
         for (const sink of this.sinks) sink.note(index, time, seconds);
     }
 
