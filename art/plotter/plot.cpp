@@ -175,8 +175,9 @@ void PlotPlan::read_layer(Gathered& from, double tolerance, glm::dvec2& at, Plot
         if (kind != Gathered::Kind::start) cut(begin, next, longest, [&](auto, auto) { ++count; });
         if (count > most_points) throw std::runtime_error("the drawing is too long to be cut for refilling the pen");
     });
-    PlotNodes table(tolerance);
+    PlotNodes table(tolerance, count);
     PlotSegmentSet set(layer.graph.segments, count);
+    layer.graph.segments.reserve(count);
     PlotStrokes& drawn = layer.as_drawn;
     drawn.order.reserve(count);
     Pulse pulse(options_.monitor);
@@ -198,8 +199,11 @@ void PlotPlan::read_layer(Gathered& from, double tolerance, glm::dvec2& at, Plot
         ++drawn.strokes.back().count;
         here = end;
     };
+    constexpr std::ptrdiff_t later = 32, soon = 12;  // points to be numbered until then
+    const glm::dvec2* const last = from.points.data() + from.points.size();
     from.for_each([&](Gathered::Kind kind, glm::dvec2 begin, std::span<const glm::dvec2> next) {
         pulse();
+        if (last - next.data() > later) table.expect(next.data()[later], next.data()[soon]);
         if (kind == Gathered::Kind::start) {
             report_.before.travelled += millimetres * glm::distance(at, next[0]);
             ++report_.before.lifts;

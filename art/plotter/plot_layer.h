@@ -42,7 +42,19 @@ inline std::size_t plot_table_size(std::size_t entries) {
 /// Numbers for points; those less than `tolerance` apart along both axes have the same.
 class PlotNodes {
 public:
-    explicit PlotNodes(double tolerance) : tolerance_(tolerance), table_(plot_table_size(0), PlotSegment::none) {}
+    /// @param expected  number of points for which the table need not grow
+    explicit PlotNodes(double tolerance, std::size_t expected = 0)
+        : tolerance_(tolerance), table_(plot_table_size(expected), PlotSegment::none) {}
+
+    /// Fetches what at() will read, so that the processor does not wait for memory: first the place in the table, and
+    /// later the point there.
+    void expect(glm::dvec2 later, glm::dvec2 soon) const {
+#ifdef __GNUC__
+        __builtin_prefetch(&table_[slot(cell_of(later))]);
+        const std::uint32_t node = table_[slot(cell_of(soon))];
+        if (node != PlotSegment::none) __builtin_prefetch(&points[node]);
+#endif
+    }
 
     std::uint32_t at(glm::dvec2 point) {
         // Most points are too far inside their cell for points of other cells to be near.
@@ -72,7 +84,9 @@ public:
 private:
     static constexpr double cells = 16.0;  // side of a cell, in tolerances
 
-    double cell_size() const { return cells * tolerance_; }
+    double cell_size() const {
+        return cells * tolerance_;
+    }
     glm::dvec2 cell_of(glm::dvec2 point) const {
         return {std::floor(point.x / cell_size()), std::floor(point.y / cell_size())};
     }

@@ -1,18 +1,54 @@
 #include "art/plotter/plot_route.h"
 
-#include "engine/geometry/point_tree.h"
+#include "engine/base/chance.h"
+#include "engine/base/threads.h"
+#include "engine/geometry/curve_tree.h"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
 namespace sikku {
 namespace {
+
+constexpr std::uint32_t no_end = CurveTree::none;
+
+/// For each of many points, the points nearest to it, the nearest first, and then `no_end`.
+class NearLists {
+public:
+    NearLists() = default;
+    NearLists(std::size_t points, std::size_t most) : most_(most), near_(points * most, no_end) {}
+    std::span<const std::uint32_t> of(std::uint32_t point) const {
+        return std::span(near_).subspan(point * most_, most_);
+    }
+    std::span<std::uint32_t> of(std::uint32_t point) { return std::span(near_).subspan(point * most_, most_); }
+
+private:
+    std::size_t most_ = 0;
+    std::vector<std::uint32_t> near_;
+};
+
+template <std::size_t most>
+NearLists find_near(const CurveTree& tree, const Monitor& monitor) {
+    NearLists near(tree.size() + 1, most);  // the last one is for the start
+    constexpr std::size_t block = 8192;
+    for_each_index((tree.size() + block - 1) / block, [&](std::size_t index) {
+        monitor.check();
+        const std::size_t begin = index * block;
+        tree.nearest_of_each<most>(begin, std::min(begin + block, tree.size()),
+                                   [&](std::uint32_t point, const std::array<std::uint32_t, most>& found) {
+                                       std::copy(found.begin(), found.end(), near.of(point).begin());
+                                   });
+    });
+    return near;
+}
 
 /// Strokes in the order in which they are drawn, each by the end at which it is entered: 2 i, or 2 i + 1 for the
 /// other way round.
@@ -21,194 +57,443 @@ public:
     /// @param points  ends of the strokes, two each
     /// @param start   position of the pen before the first one
     PlotRoute(std::vector<glm::dvec2> points, std::vector<PlotEnd> order, glm::dvec2 start)
-        : points_(std::move(points)), order_(std::move(order)), place_(order_.size()), start_(start) {
+        : points_(std::move(points)),
+          order_(std::move(order)),
+          place_(order_.size()),
+          start_(static_cast<PlotEnd>(points_.size())) {
         for (std::uint32_t i = 0; i < order_.size(); ++i) place_[order_[i] / 2] = i;
+        points_.push_back(start);
     }
 
     /// Length of all travel between the strokes.
     double length() const {
         double sum = 0;
-        for (std::uint32_t i = 0; i < order_.size(); ++i) sum += glm::distance(leave(i), points_[order_[i]]);
+        for (std::uint32_t i = 0; i < order_.size(); ++i) sum += distance(left(i), order_[i]);
         return sum;
     }
 
-    /// 2-opt: travels a → b and c → d become a → c and b → d, and the strokes between them are reversed, as long as
-    /// that shortens them, in at most 10 passes. Examines only c near a, or d near b.
-    void improve(const Monitor& monitor) {
-        const PointTree tree(points_, monitor);
-        // Long ranges are reversed only if there are few strokes, so that this stays fast.
-        const std::size_t longest = std::max<std::size_t>(1000, 3'000'000'000 / (order_.size() + 1));
-        std::vector<bool> settled(order_.size());
-        std::vector<PointTree::Near> near;
-        for (int pass = 0; pass < 10; ++pass) {
-            bool changed = false;
-            for (std::uint32_t i = 0; i < order_.size(); ++i) {
-                if (settled[order_[i] / 2]) continue;
-                monitor.check();
-                const Change best = best_change(i, tree, near, longest);
-                if (best.gain <= 0) {
-                    settled[order_[i] / 2] = true;
-                    continue;
-                }
-                changed = true;
-                for (const std::uint32_t k : {best.first, best.last, best.last + 1}) {
-                    if (k < order_.size()) settled[order_[k] / 2] = false;
-                }
-                turn_round(best.first, best.last);
+    /// Exchanges two travels (2-opt), or moves up to three strokes elsewhere (Or-opt), as long as that shortens the
+    /// travel. A new travel leads to one of the nearest ends. Parts of long routes are improved in parallel, and then
+    /// parts that overlap them; their bounds do not depend on the number of threads. Short routes are also shaken.
+    /// Source: Bentley, Fast algorithms for geometric traveling salesman problems, 1992.
+    void improve(const NearLists& near, const Monitor& monitor) {
+        const std::size_t size = order_.size();
+        part_of_.assign(size, 0);
+        is_queued_.assign(2 * size + 1, 0);
+        if (size <= longest_part) {
+            Part whole(0, 0, size, size);
+            settle_all(near, whole, monitor);
+            if (size <= longest_shaken) shake(near, whole, monitor);
+            return;
+        }
+        for (const std::size_t first : {longest_part, longest_part / 2}) {
+            std::vector<Part> parts;
+            for (std::size_t begin = 0; begin < size;) {
+                const std::size_t end = std::min(begin == 0 ? first : begin + longest_part, size);
+                for (std::size_t i = begin; i < end; ++i)
+                    part_of_[order_[i] / 2] = static_cast<std::uint32_t>(parts.size());
+                parts.emplace_back(static_cast<std::uint32_t>(parts.size()), begin, end, size);
+                begin = end;
             }
-            if (!changed) break;
+            for_each_index(parts.size(), [&](std::size_t i) { settle_all(near, parts[i], monitor); });
         }
     }
 
     const std::vector<PlotEnd>& order() const { return order_; }
 
 private:
+    static constexpr std::size_t longest_part = 50'000;
+    static constexpr std::size_t longest_shaken = 1000;
+    static constexpr std::uint32_t most_moved = 3;
+    static constexpr std::uint64_t most_work = 5000;  // for each stroke
+
+    /// Strokes whose travels are improved together. The strokes at both bounds stay, except at those of the route.
+    struct Part {
+        Part(std::uint32_t part, std::size_t begin, std::size_t end, std::size_t size)
+            : number(part),
+              lowest(static_cast<std::uint32_t>(begin == 0 ? 0 : begin + 1)),
+              highest(static_cast<std::uint32_t>(end == size ? end : end - 1)),
+              work(most_work * (end - begin + 1000)) {}
+        std::uint32_t number;
+        std::uint32_t lowest, highest;  // travels
+        std::uint64_t work;             // places in the order that may still be changed
+        std::vector<PlotEnd> due;       // ends whose travels may be improved
+    };
+    /// Strokes first to last are reversed, or, if `to` differs from first, moved before stroke `to` of the order.
     struct Change {
         double gain = 0;
-        std::uint32_t first = 0, last = 0;  // the range that is reversed
+        std::uint32_t first = 0, last = 0, to = 0;
+        bool turns = true;
     };
 
-    /// Position of the pen before it travels to the i-th stroke.
-    glm::dvec2 leave(std::uint32_t i) const { return i == 0 ? start_ : points_[order_[i - 1] ^ 1U]; }
-    Change best_change(std::uint32_t i, const PointTree& tree, std::vector<PointTree::Near>& near,
-                       std::size_t longest) const {
-        constexpr std::size_t neighbours = 10;
+    // Travel i leads to the i-th stroke; the last one, of no length, to `no_end`.
+    PlotEnd left(std::uint32_t i) const { return i == 0 ? start_ : order_[i - 1] ^ 1U; }
+    PlotEnd right(std::uint32_t i) const { return i == order_.size() ? no_end : order_[i]; }
+    /// The travel at an end.
+    std::uint32_t travel(PlotEnd end) const {
+        if (end == start_) return 0;
+        const std::uint32_t at = place_[end / 2];
+        return order_[at] == end ? at : at + 1;
+    }
+    double distance(PlotEnd a, PlotEnd b) const {
+        return a == no_end || b == no_end ? 0.0 : glm::distance(points_[a], points_[b]);
+    }
+
+    void enter(Part& part, std::uint32_t travel) {
+        for (const PlotEnd end : {left(travel), right(travel)}) {
+            if (end == no_end || is_queued_[end] != 0) continue;
+            is_queued_[end] = 1;
+            part.due.push_back(end);
+        }
+    }
+
+    void settle_all(const NearLists& near, Part& part, const Monitor& monitor) {
+        for (std::uint32_t i = part.lowest; i <= part.highest; ++i) enter(part, i);
+        settle(near, part, monitor);
+    }
+
+    /// Improves the travels that are due, and those next to every change. Returns what that gains.
+    double settle(const NearLists& near, Part& part, const Monitor& monitor) {
+        double gained = 0;
+        Pulse pulse(monitor);
+        std::vector<PlotEnd> queue;
+        while (!part.due.empty()) {
+            queue.swap(part.due);
+            part.due.clear();
+            for (const PlotEnd end : queue) {
+                pulse();
+                is_queued_[end] = 0;
+                for (;;) {
+                    const Change change = best_change(end, near, part);
+                    const std::uint32_t size =
+                        std::max(change.last + 1, change.to) - std::min(change.first, change.to);
+                    if (change.gain <= 0 || size > part.work) break;
+                    part.work -= size;
+                    gained += change.gain;
+                    for (const std::uint32_t i : {change.first, change.last + 1, change.to}) enter(part, i);
+                    apply(change);
+                }
+            }
+        }
+        return gained;
+    }
+
+    /// Exchanges random neighbouring ranges of strokes, and keeps what is shorter once it is settled.
+    /// Source: Martin, Otto & Felten, Large-step Markov chains for the traveling salesman problem, 1991.
+    void shake(const NearLists& near, Part& part, const Monitor& monitor) {
+        const std::size_t size = order_.size();
+        if (size < 3) return;
+        constexpr std::size_t longest_range = 30;
+        SplitMix random(size);
+        std::vector<PlotEnd> before;
+        for (std::size_t i = 0; i < 5 * size; ++i) {
+            monitor.check();
+            const std::uint32_t first = static_cast<std::uint32_t>(random.below(size - 1));
+            const std::uint32_t middle =
+                first + 1 + static_cast<std::uint32_t>(random.below(std::min(longest_range, size - 1 - first)));
+            const std::uint32_t end =
+                middle + 1 + static_cast<std::uint32_t>(random.below(std::min(longest_range, size - middle)));
+            before = order_;
+            const double old_way = distance(left(first), right(first)) + distance(left(middle), right(middle)) +
+                                   distance(left(end), right(end));
+            for (const std::uint32_t travel : {first, middle, end}) enter(part, travel);
+            apply({0, first, middle - 1, end, false});
+            const std::uint32_t moved = first + end - middle;
+            const double new_way = distance(left(first), right(first)) + distance(left(moved), right(moved)) +
+                                   distance(left(end), right(end));
+            if (settle(near, part, monitor) > new_way - old_way) continue;
+            order_ = before;
+            for (std::uint32_t k = 0; k < size; ++k) place_[order_[k] / 2] = k;
+        }
+    }
+
+    Change best_change(PlotEnd end, const NearLists& near, const Part& part) const {
         Change best;
-        const double way = glm::distance(leave(i), points_[order_[i]]);
-        // A change that gains has a new travel that is shorter than one it replaces, at the same end.
-        const auto consider = [&](std::uint32_t k) {  // travels to stroke i and to stroke k
-            if (i == k || std::max(i, k) - std::min(i, k) > longest) return;
-            const std::uint32_t first = std::min(i, k);
-            const std::uint32_t last = std::max(i, k);
-            double gain = way - glm::distance(leave(first), leave(last));
-            if (k < order_.size()) gain += glm::distance(leave(k), points_[order_[k]]);
-            if (last < order_.size()) gain -= glm::distance(points_[order_[first]], points_[order_[last]]);
-            // Smaller gains are rounding errors.
-            if (gain > best.gain + 1e-9 * way) best = {gain, first, last - 1};
-        };
-        tree.nearest(leave(i), way, neighbours, near);
-        for (const auto& [distance, end] : near) {
-            const std::uint32_t place = place_[end / 2];
-            if (order_[place] == (end ^ 1U)) consider(place + 1);
+        const std::uint32_t here = travel(end);
+        const auto is_inside = [&](std::uint32_t i) { return i >= part.lowest && i <= part.highest; };
+        if (!is_inside(here)) return best;
+        const bool is_left = left(here) == end;
+        const PlotEnd partner = is_left ? right(here) : left(here);
+        const double way = distance(end, partner);
+        // Smaller gains are rounding errors.
+        best.gain = 1e-9 * way;
+        const double least = best.gain;
+        for (const PlotEnd other : near.of(end)) {
+            if (other == no_end) break;
+            if (other / 2 == end / 2 && end != start_) continue;
+            const double new_way = distance(end, other);
+            if (!(new_way < way)) break;
+            if (part_of_[other / 2] != part.number) continue;
+            const std::uint32_t there = travel(other);
+            if (!is_inside(there) || here == there) continue;
+            const bool other_is_left = left(there) == other;
+            const PlotEnd other_partner = other_is_left ? right(there) : left(there);
+            const double saved = way + distance(other, other_partner) - new_way;
+            if (is_left == other_is_left) {
+                const double gain = saved - distance(partner, other_partner);
+                if (gain > best.gain) {
+                    const std::uint32_t low = std::min(here, there);
+                    best = {gain, low, std::max(here, there) - 1, low, true};
+                }
+            }
+            // Moves strokes from `other` on to `end`, or from `end` on to `other`.
+            for (const bool forth : {true, false}) {
+                const PlotEnd first = forth ? other : end;
+                if (first == start_) continue;
+                const PlotEnd next_to_first = forth ? other_partner : partner;
+                const PlotEnd beyond = forth ? partner : other_partner;
+                const std::uint32_t to = forth ? here : there;
+                const bool target_is_left = forth ? is_left : other_is_left;
+                const bool runs_up = order_[place_[first / 2]] == first;
+                std::uint32_t low = place_[first / 2], high = low;
+                for (std::uint32_t count = 1; count <= most_moved; ++count) {
+                    if (count > 1) {
+                        if (runs_up) {
+                            ++high;
+                        } else {
+                            if (low == 0) break;
+                            --low;
+                        }
+                    }
+                    // The travels on both sides of the strokes have to be inside, and the target off them.
+                    if (!is_inside(low) || !is_inside(high + 1) || (to >= low && to <= high + 1)) break;
+                    const PlotEnd last = runs_up ? order_[high] ^ 1U : order_[low];
+                    const PlotEnd after = runs_up ? right(high + 1) : left(low);
+                    const double gain =
+                        saved + distance(last, after) - distance(last, beyond) - distance(next_to_first, after);
+                    if (gain > best.gain) best = {gain, low, high, to, runs_up != target_is_left};
+                }
+            }
         }
-        tree.nearest(points_[order_[i]], way, neighbours, near);
-        for (const auto& [distance, end] : near) {
-            const std::uint32_t place = place_[end / 2];
-            if (order_[place] == end) consider(place);
-        }
+        if (best.gain <= least) best.gain = 0;
         return best;
     }
-    void turn_round(std::uint32_t first, std::uint32_t last) {
-        std::reverse(order_.begin() + first, order_.begin() + last + 1);
-        for (std::uint32_t i = first; i <= last; ++i) {
-            order_[i] ^= 1U;
-            place_[order_[i] / 2] = i;
+
+    void apply(const Change& change) {
+        std::uint32_t low = change.first;
+        std::uint32_t high = change.last + 1;
+        std::uint32_t moved = low;
+        const auto at = [&](std::uint32_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
+        if (change.to < low) {
+            std::rotate(at(change.to), at(low), at(high));
+            moved = low = change.to;
+        } else if (change.to > high) {
+            std::rotate(at(low), at(high), at(change.to));
+            moved = change.to - (high - low);
+            high = change.to;
         }
+        if (change.turns) {
+            const std::uint32_t end = moved + (change.last - change.first) + 1;
+            std::reverse(at(moved), at(end));
+            for (std::uint32_t i = moved; i < end; ++i) order_[i] ^= 1U;
+        }
+        for (std::uint32_t i = low; i < high; ++i) place_[order_[i] / 2] = i;
     }
 
     std::vector<glm::dvec2> points_;
     std::vector<PlotEnd> order_;
-    std::vector<std::uint32_t> place_;  // place of each stroke in the order
-    glm::dvec2 start_;
+    std::vector<std::uint32_t> place_;    // place of each stroke in the order
+    PlotEnd start_;                       // a point that is no end of a stroke
+    std::vector<std::uint32_t> part_of_;  // by stroke
+    std::vector<char> is_queued_;         // by end
 };
+
+/// The points where strokes may begin: both ends, or, if they are closed, any. Strokes are counted along a curve, so
+/// that what is near each other is near each other in memory.
+struct Entries {
+    Entries(const PlotGraph& graph, const PlotStrokes& given, const Monitor& monitor) {
+        const auto count = given.strokes.size();
+        points.reserve(2 * count);
+        Pulse pulse(monitor);
+        for (const PlotStroke& stroke : given.strokes) {
+            pulse();
+            points.push_back(graph.point(given.ends(stroke).front()));
+            has_closed = has_closed || stroke.closed;
+        }
+        number = order_along_curve(points, monitor);
+        points.clear();
+        for (const std::uint32_t i : number) {
+            pulse();
+            const PlotStroke& stroke = given.strokes[i];
+            const auto in_order = given.ends(stroke);
+            const auto begin = static_cast<std::uint32_t>(points.size());
+            if (stroke.closed) {
+                for (const PlotEnd end : in_order) {
+                    pulse();
+                    points.push_back(graph.point(end));
+                }
+            } else {
+                points.push_back(graph.point(in_order.front()));
+                points.push_back(graph.point(in_order.back() ^ 1U));
+            }
+            if (!has_closed) continue;
+            is_closed.push_back(stroke.closed ? 1 : 0);
+            owners.resize(points.size(), static_cast<std::uint32_t>(firsts.size()));
+            firsts.push_back(begin);
+        }
+        if (has_closed) firsts.push_back(static_cast<std::uint32_t>(points.size()));
+    }
+    /// The stroke of an entry.
+    std::uint32_t owner(std::uint32_t entry) const { return has_closed ? owners[entry] : entry / 2; }
+    /// The first entry of a stroke.
+    std::uint32_t first(std::uint32_t stroke) const { return has_closed ? firsts[stroke] : 2 * stroke; }
+    /// The entry at which a stroke is left.
+    std::uint32_t leave(std::uint32_t entry) const {
+        return has_closed ? is_closed[owners[entry]] ? entry : 2 * firsts[owners[entry]] + 1 - entry : entry ^ 1U;
+    }
+
+    std::vector<std::uint32_t> number;  // of each stroke, as given
+    std::vector<glm::dvec2> points;
+    bool has_closed = false;
+
+private:
+    // If any stroke is closed:
+    std::vector<std::uint32_t> owners, firsts;
+    std::vector<char> is_closed;
+};
+
+/// The entries of strokes in an order that always goes to the nearest one.
+std::vector<std::uint32_t> nearest_first(const Entries& entries, CurveTree& tree, const NearLists& near,
+                                         glm::dvec2 start, const Monitor& monitor) {
+    std::vector<std::uint32_t> order;
+    order.reserve(entries.number.size());
+    Pulse pulse(monitor);
+    std::uint32_t at = no_end;
+    std::uint32_t left_over = 0;
+    while (order.size() < entries.number.size()) {
+        std::uint32_t found = no_end;
+        if (at != no_end) {
+            const auto list = near.of(at);
+            const auto there = std::find_if(list.begin(), list.end(), [&](std::uint32_t other) {
+                return other == no_end || tree.is_there(other);
+            });
+            if (there != list.end()) found = *there;
+        }
+        if (found == no_end) found = tree.nearest(at == no_end ? start : entries.points[at], at == no_end ? 0 : at);
+        if (found == no_end) {  // only if coordinates are no numbers
+            while (!tree.is_there(left_over)) ++left_over;
+            found = left_over;
+        }
+        const std::uint32_t stroke = entries.owner(found);
+        for (std::uint32_t k = entries.first(stroke); k < entries.first(stroke + 1); ++k) {
+            pulse();
+            tree.remove(k);
+        }
+        order.push_back(found);
+        at = entries.leave(found);
+    }
+    return order;
+}
+
+/// A route that always goes to the nearest stroke.
+struct Walk {
+    std::vector<std::uint32_t> number;  // of strokes, as given
+    std::vector<std::uint32_t> begin;   // of strokes: the first segment, if any is closed
+    std::vector<glm::dvec2> points;     // ends of strokes, two each
+    std::vector<PlotEnd> order;
+    NearLists near;  // of these points, and of the start
+};
+
+constexpr std::size_t most_near = 6;
+constexpr std::size_t most_near_closed = 10;  // each point twice
+
+Walk walk_to_nearest(const PlotGraph& graph, const PlotStrokes& given, glm::dvec2 start, const Monitor& monitor) {
+    Walk walk;
+    Entries entries(graph, given, monitor);
+    {
+        CurveTree tree(
+            entries.points, [&](std::uint32_t id) { return entries.owner(id); },
+            [&](std::uint32_t id) {
+                return 2 * entries.number[entries.owner(id)] + (entries.has_closed ? 0 : id % 2);
+            },
+            monitor);
+        walk.near = find_near<most_near>(tree, monitor);
+        walk.order = nearest_first(entries, tree, walk.near, start, monitor);
+    }
+    walk.number = std::move(entries.number);
+    if (!entries.has_closed) {
+        walk.points = std::move(entries.points);
+    } else {
+        walk.begin.resize(walk.order.size());
+        walk.points.resize(2 * walk.order.size());
+        for (PlotEnd& end : walk.order) {
+            const std::uint32_t stroke = entries.owner(end);
+            const std::uint32_t leave = entries.leave(end);
+            const std::uint32_t which = end - entries.first(stroke);
+            walk.begin[stroke] = which;
+            const PlotEnd enter = 2 * stroke + (leave == end ? 0 : which);
+            walk.points[enter] = entries.points[end];
+            walk.points[enter ^ 1U] = entries.points[leave];
+            end = enter;
+        }
+        const CurveTree tree(
+            walk.points, [](std::uint32_t end) { return end / 2; }, [](std::uint32_t end) { return end; }, monitor);
+        walk.near = find_near<most_near_closed>(tree, monitor);
+    }
+    std::vector<std::pair<double, PlotEnd>> nearest;
+    for (PlotEnd end = 0; end < walk.points.size(); ++end) {
+        const std::pair<double, PlotEnd> one(glm::distance(start, walk.points[end]), end);
+        if (nearest.size() == most_near && !(one < nearest.back())) continue;
+        nearest.insert(std::upper_bound(nearest.begin(), nearest.end(), one), one);
+        if (nearest.size() > most_near) nearest.pop_back();
+    }
+    const auto out = walk.near.of(static_cast<PlotEnd>(walk.points.size()));
+    for (std::size_t k = 0; k < nearest.size(); ++k) out[k] = nearest[k].second;
+    return walk;
+}
 
 }  // namespace
 
 PlotStrokes sort_strokes(const PlotGraph& graph, const PlotStrokes& given, glm::dvec2 start, double drawn,
                          const Monitor& monitor) {
     const std::vector<PlotStroke>& strokes = given.strokes;
-    // Points where each stroke may begin: its two ends, or anywhere if it is closed.
-    std::vector<glm::dvec2> entries;
-    std::vector<std::uint32_t> stroke_of;
-    std::vector<std::uint32_t> first_entry;
-    Pulse pulse(monitor);
-    for (std::uint32_t i = 0; i < strokes.size(); ++i) {
-        pulse();
-        first_entry.push_back(static_cast<std::uint32_t>(entries.size()));
-        const auto in_order = given.ends(strokes[i]);
-        if (strokes[i].closed) {
-            for (const PlotEnd end : in_order) {
-                pulse();
-                entries.push_back(graph.point(end));
-            }
-        } else {
-            entries.push_back(graph.point(in_order.front()));
-            entries.push_back(graph.point(in_order.back() ^ 1U));
-        }
-        stroke_of.resize(entries.size(), i);
-    }
-    first_entry.push_back(static_cast<std::uint32_t>(entries.size()));
-
-    // Always goes to the nearest stroke.
-    std::vector<glm::dvec2> points(2 * strokes.size());
-    std::vector<PlotEnd> nearest_first;
-    std::vector<PlotEnd> as_drawn;
-    std::vector<std::uint32_t> begin(strokes.size());  // of closed strokes: the segment at which they begin
-    PointTree tree(entries, monitor);
-    std::vector<PointTree::Near> near;
-    glm::dvec2 here = start;
-    for (std::size_t done = 0; done < strokes.size(); ++done) {
-        tree.nearest(here, std::numeric_limits<double>::infinity(), 1, near);
-        const std::uint32_t entry = near.front().id;
-        const std::uint32_t i = stroke_of[entry];
-        const std::uint32_t which = entry - first_entry[i];
-        for (std::uint32_t k = first_entry[i]; k < first_entry[i + 1]; ++k) {
-            pulse();
-            tree.remove(k);
-        }
-        if (strokes[i].closed) {
-            begin[i] = which;
-            points[2 * i] = points[2 * i + 1] = entries[entry];
-            nearest_first.push_back(2 * i);
-        } else {
-            points[2 * i] = entries[first_entry[i]];
-            points[2 * i + 1] = entries[first_entry[i] + 1];
-            nearest_first.push_back(2 * i + which);
-        }
-        here = points[nearest_first.back() ^ 1U];
-    }
-    PlotRoute route(points, std::move(nearest_first), start);
-    route.improve(monitor);
-    if (route.length() > drawn) {
-        for (std::uint32_t i = 0; i < strokes.size(); ++i) as_drawn.push_back(2 * i);
-        PlotRoute other(points, std::move(as_drawn), start);
-        other.improve(monitor);
-        if (other.length() < route.length()) route = std::move(other);
+    Walk walk = walk_to_nearest(graph, given, start, monitor);
+    std::vector<glm::dvec2>& points = walk.points;
+    PlotRoute best(points, std::move(walk.order), start);
+    best.improve(walk.near, monitor);
+    if (best.length() > drawn) {
+        std::vector<PlotEnd> order(strokes.size());
+        for (std::uint32_t i = 0; i < order.size(); ++i) order[walk.number[i]] = 2 * i;
+        PlotRoute other(points, std::move(order), start);
+        other.improve(walk.near, monitor);
+        if (other.length() < best.length()) best = std::move(other);
     }
 
     PlotStrokes result;
-    std::vector<PlotEnd>& order = result.order;
-    order.reserve(given.order.size());
+    std::vector<PlotEnd>& ends = result.order;
+    ends.reserve(given.order.size());
+    result.strokes.reserve(strokes.size());
+    Pulse pulse(monitor);
     for (std::size_t at = 0; at < strokes.size(); ++at) {
         pulse();
-        const PlotEnd enter = route.order()[at];
-        const PlotStroke& stroke = strokes[enter / 2];
+        const PlotEnd enter = best.order()[at];
+        const PlotStroke& stroke = strokes[walk.number[enter / 2]];
         const auto in_order = given.ends(stroke);
-        result.strokes.push_back({static_cast<std::uint32_t>(order.size()), stroke.count, stroke.closed});
+        result.strokes.push_back({static_cast<std::uint32_t>(ends.size()), stroke.count, stroke.closed});
         if (stroke.closed) {
             // Finds a better beginning, now that the next stroke is known.
-            const glm::dvec2 from = at == 0 ? start : points[route.order()[at - 1] ^ 1U];
+            const glm::dvec2 from = at == 0 ? start : points[best.order()[at - 1] ^ 1U];
             const auto detour = [&](std::uint32_t k) {
                 const glm::dvec2 way = graph.point(in_order[k]);
                 const bool is_last = at + 1 == strokes.size();
-                return glm::distance(from, way) + (is_last ? 0.0 : glm::distance(way, points[route.order()[at + 1]]));
+                return glm::distance(from, way) + (is_last ? 0.0 : glm::distance(way, points[best.order()[at + 1]]));
             };
-            std::uint32_t best = begin[enter / 2];
-            double least = detour(best);
+            std::uint32_t nearest = walk.begin[enter / 2];
+            double least = detour(nearest);
             for (std::uint32_t k = 0; k < stroke.count; ++k) {
                 pulse();
                 if (const double length = detour(k); length < least) {
                     least = length;
-                    best = k;
+                    nearest = k;
                 }
             }
-            points[enter] = points[enter ^ 1U] = graph.point(in_order[best]);
-            order.insert(order.end(), in_order.begin() + best, in_order.end());
-            order.insert(order.end(), in_order.begin(), in_order.begin() + best);
+            points[enter] = points[enter ^ 1U] = graph.point(in_order[nearest]);
+            ends.insert(ends.end(), in_order.begin() + nearest, in_order.end());
+            ends.insert(ends.end(), in_order.begin(), in_order.begin() + nearest);
         } else if (enter % 2 == 0) {
-            order.insert(order.end(), in_order.begin(), in_order.end());
+            ends.insert(ends.end(), in_order.begin(), in_order.end());
         } else {
-            for (std::size_t k = in_order.size(); k-- > 0;) order.push_back(in_order[k] ^ 1U);
+            for (std::size_t k = in_order.size(); k-- > 0;) ends.push_back(in_order[k] ^ 1U);
         }
     }
     return result;
