@@ -26,10 +26,7 @@ public:
     PlaceTable(std::size_t rank, double tolerance) : rank_(rank), tolerance_(tolerance), table_(64), shift_(32 - 6) {}
 
     std::uint32_t add(const Coordinate* coordinates, glm::dvec2 place) {
-        return add(coordinates, place, tag_of(coordinates, place));
-    }
-    /// The same for a known tag.
-    std::uint32_t add(const Coordinate* coordinates, glm::dvec2 place, std::uint32_t tag) {
+        const std::uint32_t tag = tag_of(coordinates, place);
         const std::uint32_t known = rank_ > 0 ? find_exact(coordinates, tag) : find_near(place);
         if (known != no_number) return known;
         const auto number = static_cast<std::uint32_t>(places_.size());
@@ -43,6 +40,16 @@ public:
     std::uint32_t find(const Coordinate* coordinates, glm::dvec2 place) const {
         return rank_ > 0 ? find_exact(coordinates, tag_of(coordinates, place)) : find_near(place);
     }
+    std::size_t size() const { return places_.size(); }
+    std::span<const glm::dvec2> places() const { return places_; }
+    glm::dvec2 at(std::uint32_t number) const { return places_[number]; }
+    const Coordinate* coordinates(std::uint32_t number) const { return coordinates_.data() + number * rank_; }
+
+private:
+    struct Slot {
+        std::uint32_t number = no_number;
+        std::uint32_t tag = 0;
+    };
     /// A hash; equal whole coordinates have equal tags.
     std::uint32_t tag_of(const Coordinate* coordinates, glm::dvec2 place) const {
         if (rank_ == 0) return tag_of_cell(cell_of(place.x), cell_of(place.y));
@@ -54,18 +61,6 @@ public:
         }
         return static_cast<std::uint32_t>(hash >> 32U);
     }
-    /// Prefetches the memory in which a place with that tag will be looked up.
-    void prefetch(std::uint32_t tag) const { __builtin_prefetch(&table_[home(tag)]); }
-    std::size_t size() const { return places_.size(); }
-    std::span<const glm::dvec2> places() const { return places_; }
-    glm::dvec2 at(std::uint32_t number) const { return places_[number]; }
-    const Coordinate* coordinates(std::uint32_t number) const { return coordinates_.data() + number * rank_; }
-
-private:
-    struct Slot {
-        std::uint32_t number = no_number;
-        std::uint32_t tag = 0;
-    };
     /// The upper bits of tags, so that a table of twice the size has the same order.
     std::size_t home(std::uint32_t tag) const { return tag >> shift_; }
     std::size_t after(std::size_t slot) const { return (slot + 1) & (table_.size() - 1); }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <deque>
 #include <limits>
 
 namespace sikku {
@@ -95,7 +96,7 @@ public:
           activity_(value_.size(), 0.0),
           idle_(value_.size()),
           place_(value_.size(), none),
-          watches_(2 * value_.size()) {}
+          list_of_(2 * value_.size(), none) {}
 
     Colourable search() {
         for (Variable v = 0; v < value_.size(); ++v) {
@@ -228,9 +229,17 @@ private:
         if (possible == 0) conflict_ = {first, first + 1, first + 2};
         return possible == 0 || (possible == 1 && imply(left, 1, {Reason::Kind::siblings, 0}));
     }
+    void watch(Literal literal, std::uint32_t clause) {
+        if (list_of_[literal] == none) {
+            list_of_[literal] = static_cast<std::uint32_t>(watches_.size());
+            watches_.emplace_back();
+        }
+        watches_[list_of_[literal]].push_back(clause);
+    }
     /// Propagates through the clauses that watch a literal which became false.
     bool propagate_clauses(Literal literal) {
-        std::vector<std::uint32_t>& watching = watches_[literal];
+        if (list_of_[literal] == none) return false;
+        std::vector<std::uint32_t>& watching = watches_[list_of_[literal]];
         std::size_t kept = 0;
         steps_ += watching.size();
         for (std::size_t i = 0; i < watching.size(); ++i) {
@@ -241,7 +250,7 @@ private:
                                                                  [&](Literal each) { return !is_false(each); });
             if (other != clause.end()) {
                 std::swap(clause[1], *other);
-                watches_[clause[1]].push_back(watching[i]);
+                watch(clause[1], watching[i]);
                 continue;
             }
             watching[kept++] = watching[i];
@@ -306,8 +315,8 @@ private:
         Reason reason{};
         if (clause.size() > 1) {
             const auto number = static_cast<std::uint32_t>(clauses_.size());
-            watches_[clause[0]].push_back(number);
-            watches_[clause[1]].push_back(number);
+            watch(clause[0], number);
+            watch(clause[1], number);
             clauses_.push_back(std::move(clause));
             reason = {Reason::Kind::clause, number};
         }
@@ -395,7 +404,8 @@ private:
     std::size_t next_ = 0;  // of the trail, to be propagated
     std::vector<std::size_t> level_begin_;
     std::vector<std::vector<Literal>> clauses_;
-    std::vector<std::vector<std::uint32_t>> watches_;  // clauses by literal
+    std::vector<std::uint32_t> list_of_;              // of literals: index into watches_, or none
+    std::deque<std::vector<std::uint32_t>> watches_;  // clauses that watch a literal
     std::vector<Variable> conflict_;
     std::vector<char> seen_;
     std::vector<Variable> marked_;

@@ -18,18 +18,17 @@ namespace {
 class BorderFinder {
 public:
     BorderFinder(const TilePlane& plane, const TileSet& tiles, const TilePieces& pieces, const Monitor& monitor)
-        : plane_(plane),
-          tiles_(tiles),
-          pieces_(pieces),
-          pulse_(monitor),
-          loop_of_(pieces.sides(), no_number),
-          overlaps_(tiles) {}
+        : plane_(plane), tiles_(tiles), pieces_(pieces), pulse_(monitor), overlaps_(tiles) {
+        for (std::uint32_t side = 0; side < pieces_.sides(); ++side) {
+            if (is_border(side)) border_.push_back(side);
+        }
+        loop_of_.assign(border_.size(), no_number);
+    }
 
     TileBorder find() {
         find_followers();
-        for (std::uint32_t side = 0; side < pieces_.sides(); ++side) {
-            pulse_();
-            if (pieces_.twin[side] == no_number && loop_of_[side] == no_number) follow(side);
+        for (std::size_t i = 0; i < border_.size(); ++i) {
+            if (loop_of_[i] == no_number) follow(border_[i]);
         }
         for (TileLoop& loop : result_.loops) measure(loop);
         count_components();
@@ -43,6 +42,10 @@ public:
 
 private:
     bool is_border(std::uint32_t side) const { return pieces_.twin[side] == no_number; }
+    std::uint32_t& loop_of(std::uint32_t side) { return loop_of_[index_of(side)]; }
+    std::size_t index_of(std::uint32_t side) const {
+        return static_cast<std::size_t>(std::lower_bound(border_.begin(), border_.end(), side) - border_.begin());
+    }
 
     /// The border piece with which the fan of tiles around the end of a border piece begins, anticlockwise.
     std::uint32_t begin_of_fan(std::uint32_t side) const {
@@ -53,28 +56,29 @@ private:
     /// Finds, for each border piece, the next one anticlockwise that begins at the same point: the complement lies
     /// between their tiles.
     void find_followers() {
-        follower_.assign(pieces_.sides(), no_number);
-        for (std::uint32_t point = 0; point < plane_.points(); ++point) {
+        follower_.assign(border_.size(), no_number);
+        for (std::size_t i = 0; i < border_.size(); ++i) {
             pulse_();
+            if (follower_[i] != no_number) continue;
             std::uint32_t first = no_number, last = no_number;
-            for (const std::uint32_t side : pieces_.out_of(point)) {
+            for (const std::uint32_t side : pieces_.out_of(pieces_.from[border_[i]])) {
                 if (!is_border(side)) continue;
                 if (first == no_number) first = side;
-                if (last != no_number) follower_[last] = side;
+                if (last != no_number) follower_[index_of(last)] = side;
                 last = side;
             }
-            if (last != no_number) follower_[last] = first;
+            follower_[index_of(last)] = first;
         }
     }
     void follow(std::uint32_t first) {
         const auto number = static_cast<std::uint32_t>(result_.loops.size());
         const auto begin = static_cast<std::uint32_t>(result_.sides.size());
         double turning = 0;
-        for (std::uint32_t side = first; loop_of_[side] == no_number;) {
+        for (std::uint32_t side = first; loop_of(side) == no_number;) {
             pulse_();
-            loop_of_[side] = number;
+            loop_of(side) = number;
             result_.sides.push_back(side);
-            const std::uint32_t fan = begin_of_fan(side), next = follower_[fan];
+            const std::uint32_t fan = begin_of_fan(side), next = follower_[index_of(fan)];
             turning += opening(side, fan, next) - std::numbers::pi;
             side = next;
         }
@@ -110,18 +114,20 @@ private:
     void measure(TileLoop& loop) const { loop.area = moments(loop, start(result_.sides[loop.begin])).first / 2; }
 
     void count_components() {
-        UnionFind regions(tiles_.tiles()), components(plane_.points());
-        std::vector<char> is_used(plane_.points(), 0);
-        for (std::uint32_t side = 0; side < pieces_.sides(); ++side) {
+        UnionFind groups(tiles_.tiles());
+        for (std::uint32_t tile = 0; tile < tiles_.tiles(); ++tile) {
             pulse_();
-            if (!is_border(side)) regions.join(pieces_.tile[side], pieces_.tile[pieces_.twin[side]]);
-            components.join(pieces_.from[side], pieces_.to(side));
-            is_used[pieces_.from[side]] = 1;
+            for (std::uint32_t side = pieces_.begin[tile]; side < pieces_.begin[tile + 1]; ++side) {
+                if (!is_border(side) && pieces_.twin[side] < side)
+                    groups.join(tile, pieces_.tile(pieces_.twin[side]));
+            }
         }
-        result_.regions = regions.count();
-        for (std::uint32_t point = 0; point < plane_.points(); ++point) {
-            result_.components += is_used[point] && components.find(point) == point;
+        result_.regions = groups.count();
+        // Around other points, pieces join all tiles.
+        for (std::size_t i = 0; i < border_.size(); ++i) {
+            groups.join(pieces_.tile(border_[i]), pieces_.tile(follower_[i]));
         }
+        result_.components = groups.count();
         const auto around = std::count_if(result_.loops.begin(), result_.loops.end(),
                                           [](const TileLoop& loop) { return loop.is_outer; });
         result_.loops_agree = static_cast<std::uint64_t>(around) == result_.components;
@@ -146,7 +152,7 @@ private:
                 lists.visit_added(cell, [&](std::uint32_t other) {
                     pulse_();
                     const auto at = crossing(side, other);
-                    if (at) overlaps_.add(pieces_.tile[side], pieces_.tile[other], *at);
+                    if (at) overlaps_.add(pieces_.tile(side), pieces_.tile(other), *at);
                 });
                 lists.add(cell, side);
             });
@@ -198,15 +204,15 @@ private:
             crossed.clear();
             lists.visit(level(middle.y), [&](std::uint32_t side) {
                 pulse_();
-                if (loop_of_[side] == number) return;
+                if (loop_of(side) == number) return;
                 const glm::dvec2 a = start(side), b = end(side);
                 if ((a.y > middle.y) == (b.y > middle.y)) return;
                 // Counts crossings to the left of the middle.
                 const int place = side_of_middle(side, own);
                 const int step = b.y < a.y && place > 0 ? 1 : b.y > a.y && place < 0 ? -1 : 0;
                 winding += step;
-                windings[loop_of_[side]] += step;
-                crossed.push_back(loop_of_[side]);
+                windings[loop_of(side)] += step;
+                crossed.push_back(loop_of(side));
             });
             for (const std::uint32_t other : crossed) {
                 if (std::exchange(windings[other], 0) >= 0) continue;
@@ -215,7 +221,7 @@ private:
                 if (nearest == no_number || result_.loops[other].area > result_.loops[nearest].area) nearest = other;
             }
             if (winding == (loop.is_outer ? 0 : 1)) continue;
-            const std::uint32_t tile = pieces_.tile[own];
+            const std::uint32_t tile = pieces_.tile(own);
             const std::uint32_t other =
                 overlaps_.found.list.size() < TileViolations::most ? tile_around(middle, own) : no_number;
             if (other != no_number) {
@@ -243,7 +249,7 @@ private:
     /// A tile of another loop that contains a point of the border, or no_number.
     std::uint32_t tile_around(glm::dvec2 at, std::uint32_t side) const {
         for (std::uint32_t tile = 0; tile < tiles_.tiles(); ++tile) {
-            if (tile == pieces_.tile[side]) continue;
+            if (tile == pieces_.tile(side)) continue;
             const auto corners = tiles_.corners(tile);
             bool is_inside = false;
             for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -366,8 +372,9 @@ private:
     const TileSet& tiles_;
     const TilePieces& pieces_;
     Pulse pulse_;
-    std::vector<std::uint32_t> loop_of_;     // of sides
-    std::vector<std::uint32_t> follower_;    // of sides
+    std::vector<std::uint32_t> border_;      // sides without a twin, ascending
+    std::vector<std::uint32_t> loop_of_;     // of these
+    std::vector<std::uint32_t> follower_;    // of these
     std::vector<std::uint32_t> gap_around_;  // of loops
     TileOverlaps overlaps_;
     TileBorder result_;

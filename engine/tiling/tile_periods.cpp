@@ -67,7 +67,7 @@ private:
             is_reached[tile] = 1;
             reached.push_back(tile);
         };
-        for (const std::uint32_t side : border_) reach(pieces_.tile[side]);
+        for (const std::uint32_t side : border_) reach(pieces_.tile(side));
         is_inner_.assign(tiles_.tiles(), 1);
         for (const std::uint32_t tile : reached) is_inner_[tile] = 0;
         for (std::size_t next = 0; next < reached.size();) {

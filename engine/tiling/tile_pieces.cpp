@@ -10,11 +10,14 @@
 #include <atomic>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace sikku {
 namespace {
 
 constexpr std::uint64_t most_compared = 20'000'000'000;
+/// Number of tiles or points that one thread works on.
+constexpr std::uint32_t part_size = 1 << 14;
 
 /// A corner inside an edge.
 struct Cut {
@@ -23,20 +26,77 @@ struct Cut {
     double along = 0;
 };
 
-/// The corners of all tiles, once each.
-std::vector<std::uint32_t> corner_points(const TilePlane& plane, const TileSet& tiles) {
-    std::vector<char> is_corner(plane.points(), 0);
-    for (const std::uint32_t point : tiles.corner) is_corner[point] = 1;
-    std::vector<std::uint32_t> points;
-    for (std::uint32_t point = 0; point < is_corner.size(); ++point) {
-        if (is_corner[point]) points.push_back(point);
+/// Pairs sides in opposite directions: each with the first that is free. Cost: linear, if few sides meet at each
+/// point.
+void pair_sides(TilePieces& pieces, std::size_t points) {
+    // Of free sides, the next free one that begins at the same point.
+    std::vector<std::uint32_t>& twin = pieces.twin;
+    twin.assign(pieces.sides(), no_number);
+    std::vector<std::uint32_t> free(points, no_number);
+    for (std::uint32_t side = 0; side < pieces.sides(); ++side) {
+        const std::uint32_t from = pieces.from[side];
+        std::uint32_t* found = nullptr;
+        for (std::uint32_t* link = &free[pieces.to(side)]; *link != no_number; link = &twin[*link]) {
+            if (pieces.to(*link) == from) found = link;
+        }
+        if (found) {
+            const std::uint32_t other = *found;
+            *found = twin[other];
+            twin[other] = side;
+            twin[side] = other;
+        } else {
+            twin[side] = std::exchange(free[from], side);
+        }
     }
-    return points;
+    for (std::uint32_t side : free) {
+        while (side != no_number) side = std::exchange(twin[side], no_number);
+    }
 }
 
-/// Finds all corners that lie on edges between their ends.
-std::vector<Cut> find_cuts(const TilePlane& plane, const TileSet& tiles, const Monitor& monitor) {
-    const std::vector<std::uint32_t> points = corner_points(plane, tiles);
+/// Makes sides of the edges of tiles, and of their parts. @param cuts  sorted
+TilePieces make_pieces(const TilePlane& plane, const TileSet& tiles, const std::vector<Cut>& cuts) {
+    TilePieces pieces;
+    pieces.reserve(tiles.tiles(), tiles.corner.size() + cuts.size());
+    std::vector<std::vector<std::uint32_t>> forms;  // of the edges of classes
+    for (const TileClass& each : tiles.classes) {
+        std::vector<std::uint32_t>& of_class = forms.emplace_back();
+        for (std::size_t i = 0; i < each.vectors.size(); ++i) {
+            const std::uint32_t direction = plane.is_exact() ? plane.direction(each.vectors[i]) : 0;
+            of_class.push_back(pieces.form(direction, each.angles[i]));
+        }
+    }
+    auto cut = cuts.begin();
+    for (std::uint32_t tile = 0; tile < tiles.tiles(); ++tile) {
+        const std::uint32_t first = tiles.begin[tile];
+        for (std::uint32_t i = first; i < tiles.begin[tile + 1]; ++i) {
+            const std::uint32_t form = forms[tiles.in_class[tile]][i - first];
+            pieces.add(tiles.corner[i], form);
+            if (cut == cuts.end() || cut->edge != i) continue;
+            ++pieces.edges_cut;
+            const std::uint32_t straight = pieces.form(pieces.direction(pieces.sides() - 1), 0);
+            for (; cut != cuts.end() && cut->edge == i; ++cut) pieces.add(cut->point, straight);
+        }
+        pieces.finish_tile();
+    }
+    return pieces;
+}
+
+/// Finds corners that lie on edges between their ends. @param edges  paired if not all are searched
+std::vector<Cut> find_cuts(const TilePlane& plane, const TileSet& tiles, const TilePieces& edges, CutSearch search,
+                           const Monitor& monitor) {
+    const auto is_searched = [&](std::uint32_t edge) {
+        return search == CutSearch::all || edges.twin[edge] == no_number;
+    };
+    std::vector<std::uint32_t> points;
+    {
+        std::vector<char> is_candidate(plane.points(), 0);
+        for (std::uint32_t edge = 0; edge < edges.sides(); ++edge) {
+            if (is_searched(edge)) is_candidate[edges.from[edge]] = is_candidate[edges.to(edge)] = 1;
+        }
+        for (std::uint32_t point = 0; point < is_candidate.size(); ++point) {
+            if (is_candidate[point]) points.push_back(point);
+        }
+    }
     std::vector<Cut> cuts;
     if (points.empty()) return cuts;
     Box box;
@@ -81,18 +141,17 @@ std::vector<Cut> find_cuts(const TilePlane& plane, const TileSet& tiles, const M
             pulse();
             const std::uint32_t last = tiles.begin[tile + 1];
             for (std::uint32_t i = tiles.begin[tile]; i < last; ++i) {
-                cut(i, tiles.corner[i], tiles.corner[i + 1 < last ? i + 1 : tiles.begin[tile]]);
+                if (is_searched(i)) cut(i, edges.from[i], edges.to(i));
             }
             if (compared + visited > most_compared || cuts_found + found.size() > most_cuts) break;
         }
         compared += visited;
         cuts_found += found.size();
     };
-    constexpr std::uint32_t share = 1 << 14;
-    std::vector<std::vector<Cut>> found(tiles.tiles() / share + 1);
+    std::vector<std::vector<Cut>> found(tiles.tiles() / part_size + 1);
     for_each_index(found.size(), [&](std::size_t part) {
         const auto i = static_cast<std::uint32_t>(part);
-        find(i * share, std::min(tiles.tiles(), (i + 1) * share), found[i]);
+        find(i * part_size, std::min(tiles.tiles(), (i + 1) * part_size), found[i]);
     });
     if (cuts_found > most_cuts) {
         throw BudgetError(
@@ -111,21 +170,27 @@ std::vector<Cut> find_cuts(const TilePlane& plane, const TileSet& tiles, const M
 /// Lists for each point the sides that begin there, anticlockwise.
 void list_sides(TilePieces& pieces, std::size_t points) {
     pieces.out_begin.assign(points + 1, 0);
-    for (const std::uint32_t point : pieces.from) ++pieces.out_begin[point + 1];
-    for (std::size_t i = 0; i < points; ++i) pieces.out_begin[i + 1] += pieces.out_begin[i];
+    for (const std::uint32_t point : pieces.from) ++pieces.out_begin[point];
+    // The ends of the lists, which are filled from there.
+    for (std::size_t i = 1; i <= points; ++i) pieces.out_begin[i] += pieces.out_begin[i - 1];
     pieces.out.resize(pieces.from.size());
-    std::vector<std::uint32_t> next(pieces.out_begin.begin(), pieces.out_begin.end() - 1);
-    for (std::uint32_t side = 0; side < pieces.sides(); ++side) pieces.out[next[pieces.from[side]]++] = side;
-    for (std::size_t i = 0; i < points; ++i) {
-        const auto begin = pieces.out.begin() + pieces.out_begin[i],
-                   end = pieces.out.begin() + pieces.out_begin[i + 1];
-        const auto order = [&](const auto& towards) {
-            std::sort(begin, end, [&](std::uint32_t a, std::uint32_t b) {
-                return towards[a] != towards[b] ? towards[a] < towards[b] : a < b;
-            });
-        };
-        pieces.heading.empty() ? order(pieces.direction) : order(pieces.heading);
-    }
+    for (std::uint32_t side = pieces.sides(); side-- > 0;) pieces.out[--pieces.out_begin[pieces.from[side]]] = side;
+    for_each_index(points / part_size + 1, [&](std::size_t part) {
+        for (std::size_t i = part * part_size; i < std::min(points, (part + 1) * part_size); ++i) {
+            const auto begin = pieces.out.begin() + pieces.out_begin[i],
+                       end = pieces.out.begin() + pieces.out_begin[i + 1];
+            const auto order = [&](const auto& towards) {
+                std::sort(begin, end, [&](std::uint32_t a, std::uint32_t b) {
+                    return towards(a) != towards(b) ? towards(a) < towards(b) : a < b;
+                });
+            };
+            if (pieces.heading.empty()) {
+                order([&](std::uint32_t side) { return pieces.direction(side); });
+            } else {
+                order([&](std::uint32_t side) { return pieces.heading[side]; });
+            }
+        }
+    });
 }
 
 /// Computes the heading of each side from its ends, so that the two sides of a piece have exactly opposite ones.
@@ -157,79 +222,85 @@ bool reaches(const TilePlane& plane, const TilePieces& pieces, std::uint32_t sid
 
 }  // namespace
 
-TilePieces cut_into_pieces(TilePlane& plane, const TileSet& tiles, const Monitor& monitor) {
+void TilePieces::reserve(std::size_t tiles, std::size_t sides) {
+    begin.reserve(tiles + 1);
+    from.reserve(sides);
+    form_.reserve(sides);
+    tile_of_share_.reserve(sides / share + 1);
+}
+
+std::uint32_t TilePieces::form(std::uint32_t direction, std::uint32_t angle) {
+    const auto fresh = static_cast<std::uint32_t>(forms_.size());
+    const auto [found, is_new] = form_numbers_.try_emplace(std::uint64_t{direction} << 32U | angle, fresh);
+    if (is_new) forms_.push_back({direction, angle});
+    return found->second;
+}
+
+TilePieces cut_into_pieces(TilePlane& plane, const TileSet& tiles, CutSearch search, const Monitor& monitor) {
     if (plane.is_exact()) plane.sort_directions();
-    const std::vector<Cut> cuts = find_cuts(plane, tiles, monitor);
-    TilePieces pieces;
-    const std::size_t sides = tiles.corner.size() + cuts.size();
-    pieces.from.reserve(sides);
-    if (plane.is_exact()) pieces.direction.reserve(sides);
-    pieces.angle.reserve(sides);
-    pieces.tile.reserve(sides);
-    pieces.begin.reserve(tiles.begin.size());
-    pieces.begin.push_back(0);
-    std::size_t next_cut = 0;
-    for (std::uint32_t tile = 0; tile < tiles.tiles(); ++tile) {
-        const TileClass& in_class = tiles.class_of(tile);
-        for (std::uint32_t i = tiles.begin[tile]; i < tiles.begin[tile + 1]; ++i) {
-            const std::size_t edge = i - tiles.begin[tile];
-            const std::uint32_t direction = plane.is_exact() ? plane.direction(in_class.vectors[edge]) : 0;
-            const auto add = [&](std::uint32_t from, std::uint32_t angle) {
-                pieces.from.push_back(from);
-                if (plane.is_exact()) pieces.direction.push_back(direction);
-                pieces.angle.push_back(angle);
-                pieces.tile.push_back(tile);
-            };
-            add(tiles.corner[i], in_class.angles[edge]);
-            if (next_cut < cuts.size() && cuts[next_cut].edge == i) ++pieces.edges_cut;
-            for (; next_cut < cuts.size() && cuts[next_cut].edge == i; ++next_cut) add(cuts[next_cut].point, 0);
-        }
-        pieces.begin.push_back(pieces.sides());
-    }
+    TilePieces pieces = make_pieces(plane, tiles, {});
+    if (search == CutSearch::unpaired) pair_sides(pieces, plane.points());
+    const std::vector<Cut> cuts = find_cuts(plane, tiles, pieces, search, monitor);
+    if (!cuts.empty()) pieces = make_pieces(plane, tiles, cuts);
+    if (search == CutSearch::all || !cuts.empty()) pair_sides(pieces, plane.points());
     if (!plane.is_exact()) find_headings(plane, pieces);
     list_sides(pieces, plane.points());
-    pieces.twin.assign(pieces.from.size(), no_number);
-    for (std::uint32_t side = 0; side < pieces.sides(); ++side) {
-        if (pieces.twin[side] != no_number) continue;
-        for (const std::uint32_t other : pieces.out_of(pieces.to(side))) {
-            if (pieces.to(other) != pieces.from[side] || pieces.twin[other] != no_number) continue;
-            pieces.twin[side] = other;
-            pieces.twin[other] = side;
-            break;
-        }
-    }
     return pieces;
 }
 
 TileVertices check_vertices(const TilePlane& plane, const TileSet& tiles, const TilePieces& pieces,
                             const Monitor& monitor) {
-    TileVertices result;
-    Pulse pulse(monitor);
+    struct Overlap {
+        std::uint32_t a, b, point;
+    };
+    struct Part {
+        std::uint64_t points = 0, inner = 0;
+        std::vector<Overlap> overlaps;
+    };
     const std::uint32_t turn = plane.directions();
-    TileOverlaps overlaps(tiles);
-    for (std::uint32_t point = 0; point < plane.points(); ++point) {
-        pulse();
-        const auto sides = pieces.out_of(point);
-        if (sides.empty()) continue;
-        ++result.points;
-        std::uint64_t ends = 0;
-        for (std::size_t i = 0; i < sides.size(); ++i) {
-            const std::uint32_t before = pieces.previous(sides[i]);
-            if (pieces.twin[before] == no_number) ++ends;
-            if (sides.size() == 1) continue;
-            const std::uint32_t next = sides[i + 1 < sides.size() ? i + 1 : 0];
-            if (plane.is_exact()) {
-                const std::uint32_t begin = pieces.direction[sides[i]];
-                const std::uint32_t extent = (pieces.direction[before] + turn / 2 + turn - begin) % turn;
-                const std::uint32_t room = (pieces.direction[next] + turn - begin) % turn;
-                if (extent <= room && room > 0) continue;
-            } else if (!reaches(plane, pieces, sides[i], before, next)) {
-                continue;
+    const auto check = [&](std::uint32_t first, std::uint32_t last) {
+        Part part;
+        Pulse pulse(monitor);
+        for (std::uint32_t point = first; point < last; ++point) {
+            pulse();
+            const auto sides = pieces.out_of(point);
+            if (sides.empty()) continue;
+            ++part.points;
+            std::uint64_t ends = 0;
+            for (std::size_t i = 0; i < sides.size(); ++i) {
+                const std::uint32_t before = pieces.previous(sides[i]);
+                if (pieces.twin[before] == no_number) ++ends;
+                if (sides.size() == 1) continue;
+                const std::uint32_t next = sides[i + 1 < sides.size() ? i + 1 : 0];
+                if (plane.is_exact()) {
+                    const std::uint32_t begin = pieces.direction(sides[i]);
+                    const std::uint32_t extent = (pieces.direction(before) + turn / 2 + turn - begin) % turn;
+                    const std::uint32_t room = (pieces.direction(next) + turn - begin) % turn;
+                    if (extent <= room && room > 0) continue;
+                } else if (!reaches(plane, pieces, sides[i], before, next)) {
+                    continue;
+                }
+                part.overlaps.push_back({pieces.tile(sides[i]), pieces.tile(next), point});
             }
-            overlaps.add(pieces.tile[sides[i]], pieces.tile[next], plane.at(point));
+            if (ends == 0) ++part.inner;
         }
-        if (ends == 0) ++result.inner;
-    }
+        return part;
+    };
+    TileVertices result;
+    TileOverlaps overlaps(tiles);
+    const auto points = static_cast<std::uint32_t>(plane.points());
+    std::vector<Part> parts(4 * static_cast<std::size_t>(available_threads()));
+    in_order(
+        points / part_size + 1, parts.size(),
+        [&](std::size_t i, std::size_t place) {
+            const auto first = static_cast<std::uint32_t>(i) * part_size;
+            parts[place] = check(first, std::min(points, first + part_size));
+        },
+        [&](std::size_t, std::size_t place) {
+            result.points += parts[place].points;
+            result.inner += parts[place].inner;
+            for (const Overlap& each : parts[place].overlaps) overlaps.add(each.a, each.b, plane.at(each.point));
+        });
     result.overlaps = std::move(overlaps.found);
     return result;
 }

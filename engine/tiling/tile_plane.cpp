@@ -17,11 +17,14 @@ TilePlane::TilePlane(const Lattice& lattice, bool exact)
       numbers_(exact && lattice.rank > 0 ? std::optional<Cyclotomic>(lattice) : std::nullopt),
       rank_(numbers_ ? numbers_->rank() : 0),
       tolerance_(least_tolerance),
-      points_(rank_, tolerance_),
-      vectors_(rank_, 4 * tolerance_) {}
+      exact_points_(rank_),
+      points_(0, tolerance_),
+      vectors_(rank_, 4 * tolerance_) {
+    for (std::size_t i = 0; i < rank_; ++i) basis_[i] = lattice_.unit * lattice_.basis(static_cast<int>(i));
+}
 
 TilePlane::TilePlane(double tolerance)
-    : rank_(0), tolerance_(tolerance), points_(0, tolerance), vectors_(0, 4 * tolerance) {}
+    : rank_(0), tolerance_(tolerance), exact_points_(0), points_(0, tolerance), vectors_(0, 4 * tolerance) {}
 
 TilePlane::Coordinates TilePlane::small(std::span<const std::int64_t> coordinates) const {
     Coordinates small{};
@@ -33,41 +36,23 @@ TilePlane::Coordinates TilePlane::small(std::span<const std::int64_t> coordinate
 }
 
 std::uint32_t TilePlane::point(std::span<const std::int64_t> coordinates, glm::dvec2 place) {
-    return points_.add(small(coordinates).data(), place);
-}
-
-void TilePlane::points(std::span<const std::int64_t> coordinates, std::span<const glm::dvec2> places,
-                       std::span<const std::uint32_t> chosen, std::vector<std::uint32_t>& numbers) {
-    // The table is larger than the caches: all places of a tile are fetched at once, instead of one after another.
-    struct Wanted {
-        Coordinates coordinates;
-        std::uint32_t tag;
-    };
-    std::array<Wanted, 16> wanted;
-    while (!chosen.empty()) {
-        const std::size_t count = std::min(chosen.size(), wanted.size());
-        for (std::size_t i = 0; i < count; ++i) {
-            wanted[i].coordinates = small(coordinates.subspan(chosen[i] * rank_, rank_));
-            wanted[i].tag = points_.tag_of(wanted[i].coordinates.data(), {});
-            points_.prefetch(wanted[i].tag);
-        }
-        for (std::size_t i = 0; i < count; ++i) {
-            numbers.push_back(points_.add(wanted[i].coordinates.data(), places[chosen[i]], wanted[i].tag));
-        }
-        chosen = chosen.subspan(count);
-    }
+    if (!is_exact()) return points_.add(nullptr, place);
+    const Coordinates exact = small(coordinates);
+    return exact_points_.add(exact.data(), place_of(exact.data()));
 }
 
 std::uint32_t TilePlane::find(const Cyclotomic::Number& coordinates, glm::dvec2 place) const {
-    return find_in(points_, coordinates, place);
+    if (!is_exact()) return points_.find(nullptr, place);
+    try {
+        const Coordinates exact = small(coordinates);
+        return exact_points_.find(exact.data(), place_of(exact.data()));
+    } catch (const OutOfRange&) {
+        return no_number;
+    }
 }
 std::uint32_t TilePlane::find_vector(const Cyclotomic::Number& coordinates, glm::dvec2 place) const {
-    return find_in(vectors_, coordinates, place);
-}
-std::uint32_t TilePlane::find_in(const PlaceTable<std::int32_t>& table, const Cyclotomic::Number& coordinates,
-                                 glm::dvec2 place) const {
     try {
-        return table.find(small(coordinates).data(), place);
+        return vectors_.find(small(coordinates).data(), place);
     } catch (const OutOfRange&) {
         return no_number;
     }
@@ -79,10 +64,10 @@ Cyclotomic::Number TilePlane::number(const std::int32_t* coordinates) const {
     return result;
 }
 Cyclotomic::Number TilePlane::coordinates(std::uint32_t point) const {
-    return number(points_.coordinates(point));
+    return number(exact_points_.coordinates(point));
 }
 Cyclotomic::Number TilePlane::way(std::uint32_t from, std::uint32_t to) const {
-    const std::int32_t *begin = points_.coordinates(from), *end = points_.coordinates(to);
+    const std::int32_t *begin = exact_points_.coordinates(from), *end = exact_points_.coordinates(to);
     Cyclotomic::Number result{};
     for (std::size_t i = 0; i < rank_; ++i) result[i] = end[i] - begin[i];
     return result;
@@ -91,20 +76,12 @@ Cyclotomic::Number TilePlane::vector_coordinates(std::uint32_t vector) const {
     return number(vectors_.coordinates(vector));
 }
 
-glm::dvec2 TilePlane::place(const Cyclotomic::Number& coordinates) const {
-    glm::dvec2 sum(0.0);
-    for (std::size_t i = 0; i < rank_; ++i) {
-        sum += static_cast<double>(coordinates[i]) * (lattice_.unit * lattice_.basis(static_cast<int>(i)));
-    }
-    return sum;
-}
-
 std::uint32_t TilePlane::vector(std::uint32_t from, std::uint32_t to) {
     if (!is_exact()) return vectors_.add(nullptr, at(to) - at(from));
     const Cyclotomic::Number difference = way(from, to);
     Coordinates narrow{};
     for (std::size_t i = 0; i < rank_; ++i) narrow[i] = static_cast<std::int32_t>(difference[i]);
-    return vectors_.add(narrow.data(), place(difference));
+    return vectors_.add(narrow.data(), place_of(difference.data()));
 }
 
 int TilePlane::side(std::uint32_t origin, std::uint32_t along, std::uint32_t to) const {

@@ -4,6 +4,7 @@
 
 #include "engine/geometry/cyclotomic.h"
 #include "engine/geometry/place_table.h"
+#include "engine/tiling/point_blocks.h"
 
 #include <glm/vec2.hpp>
 
@@ -42,15 +43,14 @@ public:
 
     /// The number of a point. @param coordinates  those of the lattice; ignored if the plane is not exact
     std::uint32_t point(std::span<const std::int64_t> coordinates, glm::dvec2 place);
-    /// The same for several points of an exact plane, and faster.
-    /// @param chosen  which of the points
-    /// @param numbers  receives their numbers
-    void points(std::span<const std::int64_t> coordinates, std::span<const glm::dvec2> places,
-                std::span<const std::uint32_t> chosen, std::vector<std::uint32_t>& numbers);
     /// The number of a known point, or no_number. An exact plane ignores `place`, another one `coordinates`.
     std::uint32_t find(const Cyclotomic::Number& coordinates, glm::dvec2 place) const;
-    std::size_t points() const { return points_.size(); }
-    glm::dvec2 at(std::uint32_t point) const { return points_.at(point); }
+    /// Prepares an exact plane for a number of points, so that growing does not move them.
+    void expect_points(std::size_t points) { exact_points_.reserve(points); }
+    std::size_t points() const { return is_exact() ? exact_points_.size() : points_.size(); }
+    glm::dvec2 at(std::uint32_t point) const {
+        return is_exact() ? place_of(exact_points_.coordinates(point)) : points_.at(point);
+    }
     Cyclotomic::Number coordinates(std::uint32_t point) const;
     /// The coordinates of a point relative to another.
     Cyclotomic::Number way(std::uint32_t from, std::uint32_t to) const;
@@ -80,15 +80,21 @@ private:
     using Coordinates = std::array<std::int32_t, 8>;
     Coordinates small(std::span<const std::int64_t> coordinates) const;
     Cyclotomic::Number number(const std::int32_t* coordinates) const;
-    std::uint32_t find_in(const PlaceTable<std::int32_t>& table, const Cyclotomic::Number& coordinates,
-                          glm::dvec2 place) const;
-    glm::dvec2 place(const Cyclotomic::Number& coordinates) const;
+    /// The same as the place of a turtle with these coordinates.
+    template <class Number>
+    glm::dvec2 place_of(const Number* coordinates) const {
+        glm::dvec2 sum(0.0);
+        for (std::size_t i = 0; i < rank_; ++i) sum += static_cast<double>(coordinates[i]) * basis_[i];
+        return sum;
+    }
 
     Lattice lattice_;
     std::optional<Cyclotomic> numbers_;
     std::size_t rank_;
+    std::array<glm::dvec2, 8> basis_{};
     double tolerance_;
-    PlaceTable<std::int32_t> points_;
+    PointBlocks exact_points_;
+    PlaceTable<std::int32_t> points_;  // if the plane is not exact
     PlaceTable<std::int32_t> vectors_;
     std::vector<std::uint32_t> direction_;  // of vectors
     std::uint32_t directions_ = 0;

@@ -127,7 +127,9 @@ public:
         if (const auto at = outlines_.find(key_); is_closed && at != outlines_.end()) {
             ++tiles_.polygons;
             corners_.clear();
-            plane_.points(coordinates, places, at->second.corners, corners_);
+            for (const std::uint32_t corner : at->second.corners) {
+                corners_.push_back(plane_.point(coordinates.subspan(corner * rank, rank), places[corner]));
+            }
             return keep_tile(at->second.in_class, colour);
         }
         outline_points_.clear();
@@ -184,6 +186,8 @@ public:
         keep_tile(in_class, colour);
     }
 
+    void expect(double polygons) { expected_ = polygons; }
+
 private:
     /// An outline as it was drawn, and those of its vertices that are corners.
     struct Outline {
@@ -210,6 +214,20 @@ private:
         tiles_.in_class.push_back(in_class);
         tiles_.colour.push_back(colour);
         tiles_.number.push_back(tiles_.polygons);
+        constexpr std::uint32_t sample = 1024;
+        if (tiles_.tiles() == sample && expected_ > sample) reserve();
+    }
+    /// Reserves memory for the expected number of tiles that are like those so far.
+    void reserve() {
+        const double share =
+            std::min(expected_ / tiles_.tiles(), most_corners_ / static_cast<double>(tiles_.corner.size()));
+        const auto expected = [&](std::size_t size) {
+            return static_cast<std::size_t>(share * static_cast<double>(size)) + 1;
+        };
+        tiles_.corner.reserve(expected(tiles_.corner.size()));
+        plane_.expect_points(expected(plane_.points()));
+        for (auto* list : {&tiles_.begin, &tiles_.in_class, &tiles_.number}) list->reserve(expected(list->size()));
+        tiles_.colour.reserve(expected(tiles_.colour.size()));
     }
 
     void fault(TileFault fault, glm::dvec2 at, std::uint32_t other = 0) {
@@ -348,6 +366,7 @@ private:
     TilePlane& plane_;
     TileSet& tiles_;
     double most_corners_;
+    double expected_ = 0;  // number of polygons
     const Monitor& monitor_;
     Points outline_, corners_, vectors_, key_, outline_points_;
     std::unordered_map<Points, Outline, Hash> outlines_;  // by its vertices relative to the first one
@@ -364,6 +383,9 @@ private:
 TileCollector::TileCollector(TilePlane& plane, TileSet& tiles, double most_corners, const Monitor& monitor)
     : implementation_(std::make_unique<Implementation>(plane, tiles, most_corners, monitor)) {}
 TileCollector::~TileCollector() = default;
+void TileCollector::expect(double polygons) {
+    implementation_->expect(polygons);
+}
 void TileCollector::add(std::span<const std::int64_t> coordinates, std::span<const glm::dvec2> places,
                         std::int32_t colour, bool is_closed) {
     implementation_->add(coordinates, places, colour, is_closed);
@@ -409,16 +431,14 @@ private:
     Points points_;
 };
 
-void require_few_tiles(const Grammar& grammar, const TileLimits& limits) {
+/// The number of polygons, if it is known before derivation, or 0.
+double polygon_count(const Grammar& grammar) {
     const auto known = estimate(grammar, true);
-    if (!known) return;
-    double tiles = 0;
-    for (std::size_t i = 0; i < known->rough_counts.size(); ++i) {
-        if (grammar.symbols()[i].command.action == Action::polygon_end) tiles += known->rough_counts[i];
+    double polygons = 0;
+    for (std::size_t i = 0; known && i < known->rough_counts.size(); ++i) {
+        if (grammar.symbols()[i].command.action == Action::polygon_end) polygons += known->rough_counts[i];
     }
-    if (tiles <= limits.tiles) return;
-    throw BudgetError(fmt::format("n = {} makes about {:.3g} tiles; at most {:.0f} are examined", grammar.steps(),
-                                  tiles, limits.tiles));
+    return polygons;
 }
 
 }  // namespace
@@ -451,10 +471,15 @@ double TileScale::tolerance() const {
 
 TileSet collect_tiles(const Grammar& grammar, TilePlane& plane, const TileLimits& limits, TileScale& scale,
                       const Monitor& monitor) {
-    require_few_tiles(grammar, limits);
+    const double polygons = polygon_count(grammar);
+    if (polygons > limits.tiles) {
+        throw BudgetError(fmt::format("n = {} makes about {:.3g} tiles; at most {:.0f} are examined", grammar.steps(),
+                                      polygons, limits.tiles));
+    }
     require_affordable(grammar, true, limits.nodes);
     TileSet tiles;
     TileCollector collector(plane, tiles, most_corners(limits), monitor);
+    collector.expect(polygons);
     TileReader reader(plane, collector, scale);
     const auto turtle = Turtle::tracing(grammar, reader, reader, false);
     const auto watch = [&monitor](std::uint64_t symbols) { monitor.advance(symbols); };

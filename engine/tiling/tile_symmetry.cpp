@@ -28,9 +28,6 @@ class SymmetryFinder {
 public:
     SymmetryFinder(const TilePlane& plane, const TileSet& tiles, const Monitor& monitor)
         : plane_(plane), tiles_(tiles), pulse_(monitor), count_(static_cast<std::int64_t>(tiles.corner.size())) {
-        for (std::uint32_t tile = 0; tile < tiles_.tiles(); ++tile) {
-            placed_.add(tiles_.in_class[tile], tiles_.corner[tiles_.begin[tile]]);
-        }
         for (std::uint32_t i = 0; i < tiles_.classes.size(); ++i)
             by_hash_.emplace(hash_of(tiles_.classes[i].vectors), i);
         for (const std::uint32_t point : tiles_.corner) {
@@ -158,9 +155,20 @@ private:
             pulse_();
             const ClassImage& image = images[tiles_.in_class[tile]];
             const std::uint32_t point = moved(motion, tiles_.corner[tiles_.begin[tile] + image.corner]);
-            if (point == no_number || placed_.find(image.in_class, point) == no_number) return false;
+            if (point == no_number || !is_placed(image.in_class, point)) return false;
         }
         return true;
+    }
+
+    /// True if there is a tile of that class and first corner.
+    bool is_placed(std::uint32_t in_class, std::uint32_t corner) {
+        if (!placed_) {
+            placed_.emplace();
+            for (std::uint32_t tile = 0; tile < tiles_.tiles(); ++tile) {
+                placed_->add(tiles_.in_class[tile], tiles_.corner[tiles_.begin[tile]]);
+            }
+        }
+        return placed_->find(in_class, corner) != no_number;
     }
 
     std::optional<ClassImage> find_image(const Motion& motion, const TileClass& from) const {
@@ -225,7 +233,7 @@ private:
     const TilePlane& plane_;
     const TileSet& tiles_;
     Pulse pulse_;
-    TileAnchors placed_;
+    std::optional<TileAnchors> placed_;  ///< of all tiles, as soon as they are needed
     std::unordered_multimap<std::uint64_t, std::uint32_t> by_hash_;
     std::int64_t count_;  ///< corners, at most 2^32, so that products stay below 2^62
     Cyclotomic::Number sum_{};

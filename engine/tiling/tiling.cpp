@@ -91,8 +91,9 @@ void examine_vertices(TilingPatch& patch, const Monitor& monitor, TilingExaminat
     if (vertices.overlaps.count == 0) examine_border(patch, vertices, monitor, result);
 }
 
-void examine_pieces(TilingPatch& patch, const TilingOptions& options, TilingExamination& result) {
-    patch.pieces = cut_into_pieces(patch.plane, patch.tiles, options.monitor);
+void examine_pieces(TilingPatch& patch, CutSearch search, const TilingOptions& options, TilingExamination& result) {
+    patch.pieces = {};
+    patch.pieces = cut_into_pieces(patch.plane, patch.tiles, search, options.monitor);
     const TilePieces& pieces = patch.pieces;
     for (std::uint32_t side = 0; side < pieces.sides(); ++side) {
         if (pieces.twin[side] == no_number) ++result.border_edges;
@@ -104,6 +105,24 @@ void examine_pieces(TilingPatch& patch, const TilingOptions& options, TilingExam
              [&] { examine_neighbours(patch, options, result); });
     // Tiles that do not overlap are countries of a map (Appel & Haken 1977).
     if (result.has_border) result.most_colours = std::min(result.most_colours, 4);
+}
+
+/// If tiles do not overlap, it suffices to look for corners in few edges. They do not overlap if the pieces of these
+/// edges say so: the number of tiles around a point is the sum of the winding numbers of their outlines, and thus
+/// that of the border, in which paired sides cancel each other whether or not corners of other tiles lie on them.
+void examine_pieces(TilingPatch& patch, const TilingOptions& options, TilingExamination& result) {
+    if (patch.plane.is_exact()) {
+        TilingExamination found = result;
+        try {
+            examine_pieces(patch, CutSearch::unpaired, options, found);
+            if (found.has_border) {
+                result = std::move(found);
+                return;
+            }
+        } catch (const BudgetError&) {
+        }
+    }
+    examine_pieces(patch, CutSearch::all, options, result);
 }
 
 /// Returns a result for a plane in which tiles are then collected; examine() finds the facts.
@@ -127,8 +146,10 @@ void examine(TilingResult& both, const TilingOptions& options) {
 
     // Both only read the points and tiles.
     on_threads(0, [&] {
+        TileSymmetry symmetry;
         run_both([&] { examine_pieces(patch, options, result); },
-                 [&] { result.symmetry = find_symmetry(patch.plane, tiles, options.monitor); });
+                 [&] { symmetry = find_symmetry(patch.plane, tiles, options.monitor); });
+        result.symmetry = symmetry;
     });
 }
 
