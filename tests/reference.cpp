@@ -326,8 +326,8 @@ System random_system(unsigned seed, const Kind& kind) {
         };
         for (std::size_t i = 0; kind.contexts && i < 6; ++i) {
             Rule rule = rule_for(dice.one_of(kind.letters), 0);
-            rule.left = plain(0, 2);
-            rule.right = plain(0, 2);
+            rule.left = plain(0, kind.longest_context);
+            rule.right = plain(0, kind.longest_context);
             if (seen.insert({rule.left, rule.predecessor, rule.right}).second) rules.push_back(rule);
         }
         for (std::size_t i = 0; kind.subwords && i < 3; ++i) {

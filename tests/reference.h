@@ -160,6 +160,7 @@ struct Kind {
     std::size_t tables = 1;
     std::size_t most_steps = 6;
     Brackets brackets = Brackets::none;
+    std::size_t longest_context = 2;  ///< symbols on each side
 };
 
 Tokens random_word(Dice& dice, const Kind& kind, std::size_t length, int net = 0);

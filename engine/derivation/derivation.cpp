@@ -30,14 +30,14 @@ Grammar resolve_contexts(Grammar grammar, const DerivationOptions& options) {
     require_word(grammar);
     const std::int64_t whole = grammar.whole_word_steps();
     if (whole == 0) return grammar;
-    std::shared_ptr<const ModuleWord> word;
+    ModuleWord word;  // after the first step
     const std::int64_t done = grammar.steps_done();
     std::int64_t step = 0;
     std::uint64_t visited = 0;
     MatchingWork work(options);
     for (const ScheduleRun& run : grammar.schedule()) {
         for (std::int64_t i = 0; i < run.steps && step < whole; ++i, ++step) {
-            const ModuleWord& before = word ? *word : grammar.axiom_modules();
+            const ModuleWord& before = step > 0 ? word : grammar.axiom_modules();
             const auto refuse = [&](const std::string& what, std::uint64_t most) {
                 // With a schedule, a shorter derivation consists of different steps.
                 const std::string advice = grammar.has_schedule()
@@ -60,7 +60,8 @@ Grammar resolve_contexts(Grammar grammar, const DerivationOptions& options) {
             }
             // If a table does not change the word, it does not change it in the rest of its run either.
             const bool unchanged = !grammar.is_stochastic() && is_same(next, before);
-            word = std::make_shared<const ModuleWord>(std::move(next));
+            std::swap(word, next);
+            work.memory.spare = std::move(next.symbols);
             if (options.watch) options.watch(0);
             if (unchanged) {
                 step += std::min(run.steps - i, whole - step) - 1;
@@ -68,7 +69,7 @@ Grammar resolve_contexts(Grammar grammar, const DerivationOptions& options) {
             }
         }
     }
-    return std::move(grammar).after(whole, std::move(word));
+    return std::move(grammar).after(whole, std::make_shared<const ModuleWord>(std::move(word)));
 }
 
 void derive(const Grammar& given, SymbolSink& sink, const DerivationOptions& options) {

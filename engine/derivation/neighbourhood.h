@@ -1,10 +1,12 @@
 // engine/derivation/neighbourhood.h: matches contexts around a symbol of a word and counts the cost.
 #pragma once
 
+#include "engine/derivation/context_choices.h"
 #include "engine/derivation/derivation.h"
 
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -16,7 +18,7 @@ class MatchingError : public BudgetError {
 };
 
 /// Counts the symbols compared in matching, over all steps of a derivation, so that the budget limits long contexts
-/// at many places. A few comparisons for each symbol of a word are free.
+/// at many places. A few comparisons for each symbol of a word are free. Keeps what is known of the tables.
 class MatchingWork {
 public:
     explicit MatchingWork(const DerivationOptions& options)
@@ -33,6 +35,19 @@ public:
     void add(std::uint64_t compared) {
         count_ += compared;
         if (count_ >= next_look_) look();
+    }
+
+    /// Memory that steps use again.
+    struct Memory {
+        std::vector<std::uint32_t> before, after, branch;
+        std::vector<std::uint8_t> classes;
+        Word spare;  ///< a word that is not needed any more
+    };
+    Memory memory;
+
+    /// Of the grammar of the derivation.
+    const ContextChoices& choices(const Grammar& grammar, const Table& table) {
+        return choices_.try_emplace(&table, grammar, table).first->second;
     }
 
 private:
@@ -52,6 +67,7 @@ private:
     std::uint64_t count_ = 0;
     std::uint64_t next_look_;
     std::int64_t step_ = 0;
+    std::map<const Table*, ContextChoices> choices_;
 };
 
 /// Finds the neighbours of a symbol in a word, across branches, as the pfg program does.
@@ -60,47 +76,26 @@ private:
 /// Source: Prusinkiewicz & Hanan 1989, section 3.4 and appendix A.
 class Neighbourhood {
 public:
-    Neighbourhood(const Grammar& grammar, const Word& word, bool with_branches, MatchingWork& work)
-        : grammar_(grammar), word_(word), work_(work) {
-        if (with_branches) find_branches();
-        const auto size = static_cast<std::uint32_t>(word.size());
+    Neighbourhood(const ContextChoices& choices, const Word& word, MatchingWork& work)
+        : choices_(choices),
+          word_(word),
+          work_(work),
+          before_(work.memory.before),
+          after_(work.memory.after),
+          branch_(work.memory.branch) {
         before_.resize(word.size() + 1);
         after_.resize(word.size() + 1);
-        std::vector<std::uint32_t> open;
-        before_[0] = nothing;
-        for (std::uint32_t i = 0; i < size; ++i) {
-            const Symbol symbol = word[i];
-            before_[i + 1] = i;
-            if (grammar.is_push(symbol)) open.push_back(before_[i]);
-            // After a branch, the symbol before it is visible; `]` closes it even where brackets are ignored.
-            std::uint32_t opened = nothing;
-            if (grammar.is_pop(symbol) && !open.empty()) {
-                opened = open.back();
-                open.pop_back();
-            }
-            if (grammar.ignored(symbol) || grammar.is_push(symbol)) {
-                before_[i + 1] = before_[i];
-            } else if (grammar.is_pop(symbol)) {
-                before_[i + 1] = opened;
-            }
-        }
-        open.clear();
-        after_[size] = nothing;
-        for (std::uint32_t i = size; i-- > 0;) {
-            const Symbol symbol = word[i];
-            after_[i] = i;
-            if (grammar.is_pop(symbol)) open.push_back(after_[i + 1]);
-            std::uint32_t closed = nothing;
-            if (grammar.is_push(symbol) && !open.empty()) {
-                closed = open.back();
-                open.pop_back();
-            }
-            if (grammar.ignored(symbol)) {
-                after_[i] = after_[i + 1];
-            } else if (grammar.is_push(symbol)) {
-                after_[i] = closed;
-            }
-        }
+        branch_.resize(choices.looks_into_branches() ? word.size() : 0);
+        look_left();
+        look_right();
+    }
+
+    /// Index of the productions whose contexts begin as the neighbours of the symbol at a position.
+    std::size_t index(std::size_t at) const {
+        const std::uint32_t left = before_[at];
+        const std::uint32_t right = after_[at + 1];
+        return choices_.index(kind(at), left == nothing ? std::uint8_t{0} : kind(left).left,
+                              right == nothing ? std::uint8_t{0} : kind(right).right);
     }
 
     /// True if `context` matches to the left of position `at`. Writes the positions of its symbols, from left to
@@ -129,15 +124,14 @@ private:
         ends_.clear();
         for (std::size_t k = 0; k < context.size(); ++k) {
             const Symbol wanted = context[k];
-            if (!branch_.empty() && grammar_.is_push(wanted)) {
+            if (!branch_.empty() && choices_.kind(wanted).is_push) {
                 // Only ignored symbols may precede the branch.
-                const std::size_t begin =
-                    at < word_.size() && !grammar_.is_push(word_[at]) ? std::size_t{branch_[at]} : at;
+                const std::size_t begin = at < word_.size() && !kind(at).is_push ? std::size_t{branch_[at]} : at;
                 if (begin >= word_.size()) return k;
                 ends_.push_back(branch_[begin]);
                 at = begin + 1;
                 if (seen_at) *seen_at++ = nothing;
-            } else if (!branch_.empty() && grammar_.is_pop(wanted)) {
+            } else if (!branch_.empty() && choices_.kind(wanted).is_pop) {
                 at = ends_.back() == nothing ? word_.size() : std::size_t{ends_.back()} + 1;
                 ends_.pop_back();
                 if (seen_at) *seen_at++ = nothing;
@@ -151,33 +145,72 @@ private:
         return context.size();
     }
 
-    /// Stores for each '[' its ']', and for each other position the next '[' if only ignored symbols precede it.
-    void find_branches() {
-        branch_.assign(word_.size(), nothing);
-        std::vector<std::uint32_t> closed;
-        for (auto i = static_cast<std::uint32_t>(word_.size()); i-- > 0;) {
-            const Symbol symbol = word_[i];
-            if (grammar_.is_pop(symbol)) {
-                closed.push_back(i);
-            } else if (grammar_.is_push(symbol)) {
-                if (!closed.empty()) {
-                    branch_[i] = closed.back();
-                    closed.pop_back();
-                }
-            } else if (grammar_.ignored(symbol) && std::size_t{i} + 1 < word_.size()) {
-                branch_[i] = grammar_.is_push(word_[i + 1]) ? i + 1 : branch_[i + 1];
+    const ContextChoices::Kind& kind(std::size_t at) const { return choices_.kind(word_[at]); }
+
+    void look_left() {
+        std::vector<std::uint32_t> open;
+        std::uint32_t seen = nothing;
+        for (std::uint32_t i = 0; i < word_.size(); ++i) {
+            before_[i] = seen;
+            const ContextChoices::Kind& here = kind(i);
+            if (!here.is_special) {
+                seen = i;
+                continue;
             }
+            // After a branch, the symbol before it is visible; `]` closes it even where brackets are ignored.
+            if (here.is_push) open.push_back(seen);
+            std::uint32_t opened = nothing;
+            if (here.is_pop && !open.empty()) {
+                opened = open.back();
+                open.pop_back();
+            }
+            if (here.is_pop && !here.is_ignored) seen = opened;
+        }
+        before_[word_.size()] = seen;
+    }
+
+    /// Also stores for each '[' its ']', and for each other position the next '[' if only ignored symbols precede it.
+    void look_right() {
+        struct Branch {
+            std::uint32_t end, after;
+        };
+        std::vector<Branch> open;
+        std::uint32_t seen = nothing;
+        after_[word_.size()] = nothing;
+        for (auto i = static_cast<std::uint32_t>(word_.size()); i-- > 0;) {
+            const ContextChoices::Kind& here = kind(i);
+            if (here.is_special) {
+                if (here.is_pop) open.push_back({i, seen});
+                Branch branch{nothing, nothing};
+                if (here.is_push && !open.empty()) {
+                    branch = open.back();
+                    open.pop_back();
+                }
+                if (!here.is_ignored) seen = here.is_push ? branch.after : i;
+                if (!branch_.empty()) {
+                    branch_[i] = nothing;
+                    if (here.is_push) {
+                        branch_[i] = branch.end;
+                    } else if (!here.is_pop && std::size_t{i} + 1 < word_.size()) {
+                        branch_[i] = kind(i + 1).is_push ? i + 1 : branch_[i + 1];
+                    }
+                }
+            } else {
+                seen = i;
+                if (!branch_.empty()) branch_[i] = nothing;
+            }
+            after_[i] = seen;
         }
     }
 
     static constexpr std::uint32_t nothing = std::numeric_limits<std::uint32_t>::max();
-    const Grammar& grammar_;
+    const ContextChoices& choices_;
     const Word& word_;
     MatchingWork& work_;
-    std::vector<std::uint32_t> before_;  // position visible to the left of each symbol
-    std::vector<std::uint32_t> after_;   // position visible to the right, its own included
-    std::vector<std::uint32_t> branch_;  // empty if no context looks into branches
-    std::vector<std::uint32_t> ends_;    // ends of the branches in the context being matched
+    std::vector<std::uint32_t>& before_;  // position visible to the left of each symbol
+    std::vector<std::uint32_t>& after_;   // position visible to the right, its own included
+    std::vector<std::uint32_t>& branch_;  // empty if no context looks into branches
+    std::vector<std::uint32_t> ends_;     // ends of the branches in the context being matched
 };
 
 /// Rewrites a word as the public function does, and counts the symbols compared in `work`.

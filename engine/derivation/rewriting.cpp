@@ -5,19 +5,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
+#include <array>
+#include <cstddef>
+#include <cstring>
 #include <optional>
 #include <vector>
 
 namespace sikku {
 namespace {
-
-bool looks_into_branches(const Grammar& grammar, const Table& table) {
-    return std::any_of(table.productions().begin(), table.productions().end(), [&](const Production& production) {
-        return std::any_of(production.right.begin(), production.right.end(),
-                           [&](Symbol symbol) { return grammar.is_push(symbol); });
-    });
-}
 
 /// For each symbol of a new word, the index of its predecessor.
 using Parents = std::vector<std::uint32_t>;
@@ -59,6 +54,20 @@ bool stands_at(const Word& predecessor, const Word& word, std::size_t at, Matchi
     return end == predecessor.end();
 }
 
+/// Throws for words that are too long.
+class LengthLimit {
+public:
+    // Places are counted in 32 bits.
+    explicit LengthLimit(const DerivationOptions& options)
+        : longest_(std::min<std::uint64_t>(options.longest_word, UINT32_MAX - 1)) {}
+    void check(std::uint64_t size) const {
+        if (size > longest_) throw BudgetError(fmt::format("the word has more than {} symbols", longest_));
+    }
+
+private:
+    std::uint64_t longest_;
+};
+
 /// Makes one step of a system with parameters or random choices.
 class ModuleRewriter {
 public:
@@ -66,7 +75,8 @@ public:
                    MatchingWork& work)
         : grammar_(grammar), table_(table), word_(word), step_(step), work_(work) {
         if (!table.context_free()) {
-            neighbourhood_.emplace(grammar, word.symbols, looks_into_branches(grammar, table), work);
+            choices_ = &work.choices(grammar, table);
+            neighbourhood_.emplace(*choices_, word.symbols, work);
         }
         if (grammar.is_parametric() && neighbourhood_) {
             if (word.arguments.size() > UINT32_MAX) throw BudgetError("the word has more than 2^32 parameters");
@@ -80,7 +90,7 @@ public:
     }
 
     /// @param parents  may be null
-    ModuleWord run(std::uint64_t longest, const std::function<void()>& refuse, Parents* parents) {
+    ModuleWord run(const LengthLimit& limit, Parents* parents) {
         ModuleWord result;
         result.symbols.reserve(word_.symbols.size());
         result.arguments.reserve(word_.arguments.size());
@@ -96,14 +106,15 @@ public:
             const Symbol symbol = word_.symbols[at_];
             const std::uint64_t place = has_places ? grammar_.place_of(word_, at_) : 0;
             const Chance chance{place, step_};
-            const auto candidates = table_.candidates(symbol);
+            const auto candidates =
+                choices_ ? choices_->candidates(neighbourhood_->index(at_)) : table_.candidates(symbol);
             const Production* production = nullptr;
             if (!candidates.empty()) {
                 production = choose(table_, candidates, chance, fault, formals_,
                                     [this](const Production& candidate) { return matches(candidate); });
             }
             if (!production) {
-                if (result.symbols.size() >= longest) refuse();
+                limit.check(result.symbols.size() + 1);
                 result.symbols.push_back(symbol);
                 if (parents) parents->push_back(static_cast<std::uint32_t>(at_));
                 const double* own = word_.arguments.data() + argument_;
@@ -112,7 +123,7 @@ public:
                 argument_ += info(at_++).arity;
                 continue;
             }
-            if (result.symbols.size() + production->successor.size() > longest) refuse();
+            limit.check(result.symbols.size() + production->successor.size());
             result.symbols.insert(result.symbols.end(), production->successor.begin(), production->successor.end());
             if (parents) parents->resize(result.symbols.size(), static_cast<std::uint32_t>(at_));
             for (const Expression& argument : production->arguments) {
@@ -169,6 +180,7 @@ private:
     const ModuleWord& word_;
     std::int64_t step_;
     MatchingWork& work_;
+    const ContextChoices* choices_ = nullptr;  // null if no production looks at neighbours
     std::optional<Neighbourhood> neighbourhood_;
     std::vector<std::uint32_t> begin_;  // index of each symbol's first argument; empty unless contexts need it
     std::size_t at_ = 0;
@@ -178,53 +190,166 @@ private:
     std::vector<double> gathered_;
 };
 
+/// What may replace symbols, by numbers: successors, or, as number 0, the symbol itself.
+class Outcomes {
+public:
+    static constexpr std::size_t room = 8;
+
+    std::uint16_t add(const Word& successor) {
+        outcomes_.push_back({pool_.size() - room, successor.size()});
+        pool_.insert(pool_.end() - room, successor.begin(), successor.end());
+        return static_cast<std::uint16_t>(outcomes_.size() - 1);
+    }
+    std::size_t length(std::uint16_t number) const { return outcomes_[number].size; }
+    /// Writes an outcome, and symbols that do not matter up to `room`. Returns the end.
+    Symbol* write(std::uint16_t number, Symbol symbol, Symbol* out) const {
+        const Outcome outcome = outcomes_[number];
+        const Symbol* const from = pool_.data() + outcome.begin;
+        std::memcpy(out, from, room * sizeof(Symbol));
+        if (outcome.size > room) std::memcpy(out, from, outcome.size * sizeof(Symbol));
+        out[0] = number == 0 ? symbol : out[0];
+        return out + outcome.size;
+    }
+
+private:
+    struct Outcome {
+        std::size_t begin, size;
+    };
+    std::vector<Outcome> outcomes_ = {{0, 1}};
+    Word pool_ = Word(room);
+};
+
+/// For productions that rewrite one symbol and look at no more than the nearest one on each side. Only the classes of
+/// the neighbours are kept, and what follows from them is looked up.
+Word rewrite_by_nearest(const ContextChoices& choices, const Table& table, const Word& word, const LengthLimit& limit,
+                        MatchingWork& work, Parents* parents) {
+    using Kind = ContextChoices::Kind;
+    constexpr std::size_t block = 2048;
+    Outcomes outcomes;
+    std::vector<std::uint16_t> outcome_of(choices.size());
+    std::vector<std::uint16_t> known(table.productions().size());
+    for (std::size_t i = 0; i < choices.size(); ++i) {
+        const auto candidates = choices.candidates(i);
+        if (candidates.empty()) continue;
+        std::uint16_t& number = known[candidates.front()];
+        if (number == 0) number = outcomes.add(table.production(candidates.front()).successor);
+        outcome_of[i] = number;
+    }
+    // Classes of the nearest symbols to the right, from right to left.
+    std::vector<std::uint8_t>& classes = work.memory.classes;
+    classes.resize(word.size());
+    std::vector<std::uint8_t> open;
+    std::uint8_t seen = 0;
+    for (std::size_t at = word.size(); at-- > 0;) {
+        classes[at] = seen;
+        const Kind kind = choices.kind(word[at]);
+        if (!kind.is_special) {
+            seen = kind.right;
+            continue;
+        }
+        if (kind.is_pop) open.push_back(seen);
+        std::uint8_t closed = 0;
+        if (kind.is_push && !open.empty()) {
+            closed = open.back();
+            open.pop_back();
+        }
+        if (!kind.is_ignored) seen = kind.is_push ? closed : kind.right;
+    }
+    open.clear();
+    seen = 0;
+    Word result = std::move(work.memory.spare);
+    std::size_t size = 0;
+    std::array<std::uint16_t, block> marks;
+    for (std::size_t begin = 0; begin < word.size(); begin += block) {
+        const std::size_t end = std::min(begin + block, word.size());
+        work.add(end - begin);
+        std::size_t more = 0;
+        for (std::size_t at = begin; at < end; ++at) {
+            const Kind kind = choices.kind(word[at]);
+            const std::uint16_t outcome = outcome_of[choices.index(kind, seen, classes[at])];
+            marks[at - begin] = outcome;
+            more += outcomes.length(outcome);
+            if (!kind.is_special) {
+                seen = kind.left;
+                continue;
+            }
+            if (kind.is_push) open.push_back(seen);
+            std::uint8_t opened = 0;
+            if (kind.is_pop && !open.empty()) {
+                opened = open.back();
+                open.pop_back();
+            }
+            if (kind.is_pop && !kind.is_ignored) seen = opened;
+        }
+        limit.check(size + more);
+        // Grows by doubling, and never shrinks before the end.
+        if (result.size() < size + more + Outcomes::room) {
+            result.resize(
+                std::max(size + more + Outcomes::room, begin == 0 ? word.size() + block : 2 * result.size()));
+        }
+        Symbol* const first = result.data();
+        Symbol* out = first + size;
+        for (std::size_t at = begin; at < end; ++at) {
+            out = outcomes.write(marks[at - begin], word[at], out);
+            if (parents) parents->resize(static_cast<std::size_t>(out - first), static_cast<std::uint32_t>(at));
+        }
+        size += more;
+    }
+    result.resize(size);
+    return result;
+}
+
+Word rewrite_context_free(const Table& table, const Word& word, const LengthLimit& limit, MatchingWork& work,
+                          Parents* parents) {
+    Word result;
+    result.reserve(word.size());
+    for (std::size_t at = 0; at < word.size(); ++at) {
+        work.add(1);
+        const Word* const successor = table.successor(word[at]);
+        limit.check(result.size() + (successor ? successor->size() : 1));
+        if (successor) {
+            result.insert(result.end(), successor->begin(), successor->end());
+        } else {
+            result.push_back(word[at]);
+        }
+        if (parents) parents->resize(result.size(), static_cast<std::uint32_t>(at));
+    }
+    return result;
+}
+
 Word rewrite_plain(const Grammar& grammar, const Table& table, const Word& word, const DerivationOptions& options,
                    MatchingWork& work, Parents* parents) {
-    // Places are counted in 32 bits.
-    const std::uint64_t longest = std::min<std::uint64_t>(options.longest_word, UINT32_MAX - 1);
-    const auto refuse = [&] { throw BudgetError(fmt::format("the word has more than {} symbols", longest)); };
-    if (word.size() > longest) refuse();
-    Word result;
-    const auto append = [&](const Word& successor) {
-        if (result.size() + successor.size() > longest) refuse();
-        result.insert(result.end(), successor.begin(), successor.end());
-    };
-    result.reserve(word.size());
-    const bool context_free = table.context_free();
-    auto choose = [&, neighbourhood = context_free
-                                          ? std::nullopt
-                                          : std::optional<Neighbourhood>(std::in_place, grammar, word,
-                                                                         looks_into_branches(grammar, table), work)](
-                      std::size_t at) mutable -> const Production* {
-        for (const std::uint32_t i : table.candidates(word[at])) {
+    const LengthLimit limit(options);
+    limit.check(word.size());
+    if (table.context_free()) return rewrite_context_free(table, word, limit, work, parents);
+    const ContextChoices& choices = work.choices(grammar, table);
+    if (choices.looks_at_nearest()) return rewrite_by_nearest(choices, table, word, limit, work, parents);
+    Neighbourhood neighbourhood(choices, word, work);
+    const auto choose = [&](std::size_t at) -> const Production* {
+        for (const std::uint32_t i : choices.candidates(neighbourhood.index(at))) {
             const Production& production = table.production(i);
             work.add(1);
             if (!stands_at(production.predecessor, word, at, work)) continue;
-            if (neighbourhood->left_matches(production.left, at) &&
-                neighbourhood->right_matches(production.right, at + production.predecessor.size())) {
+            if (neighbourhood.left_matches(production.left, at) &&
+                neighbourhood.right_matches(production.right, at + production.predecessor.size())) {
                 return &production;
             }
         }
         return nullptr;
     };
+    Word result;
+    result.reserve(word.size());
     for (std::size_t at = 0; at < word.size();) {
         work.add(1);
-        const Word* successor = nullptr;
-        std::size_t replaced = 1;
-        if (context_free) {
-            successor = table.successor(word[at]);
-        } else if (const Production* production = choose(at)) {
-            successor = &production->successor;
-            replaced = production->predecessor.size();
-        }
-        if (successor) {
-            append(*successor);
+        const Production* const production = choose(at);
+        limit.check(result.size() + (production ? production->successor.size() : 1));
+        if (production) {
+            result.insert(result.end(), production->successor.begin(), production->successor.end());
         } else {
-            if (result.size() >= longest) refuse();
             result.push_back(word[at]);
         }
         if (parents) parents->resize(result.size(), static_cast<std::uint32_t>(at));
-        at += replaced;
+        at += production ? production->predecessor.size() : 1;
     }
     return result;
 }
@@ -243,11 +368,9 @@ ModuleWord rewrite_whole(const Grammar& grammar, const Table& table, const Modul
         if (grammar.is_plain()) {
             return {rewrite_plain(grammar, table, word.symbols, options, work, parents), {}, {}};
         }
-        // Places are counted in 32 bits.
-        const std::uint64_t longest = std::min<std::uint64_t>(options.longest_word, UINT32_MAX - 1);
-        const auto refuse = [&] { throw BudgetError(fmt::format("the word has more than {} symbols", longest)); };
-        if (word.symbols.size() > longest) refuse();
-        return ModuleRewriter(grammar, table, word, step, work).run(longest, refuse, parents);
+        const LengthLimit limit(options);
+        limit.check(word.symbols.size());
+        return ModuleRewriter(grammar, table, word, step, work).run(limit, parents);
     };
     ModuleWord result = rewritten();
     if (trimmed && parents) {

@@ -100,6 +100,21 @@ TEST(Derivation, ContextsEqualThoseOfPfg) {
     }
 }
 
+TEST(Derivation, ContextsOfOneSymbolEqualThoseOfPfg) {
+    Kind kind;
+    kind.contexts = true;
+    kind.longest_context = 1;
+    kind.longest = 10;
+    kind.interpreted = true;
+    for (const auto brackets : {Kind::Brackets::none, Kind::Brackets::nested, Kind::Brackets::anywhere}) {
+        kind.brackets = brackets;
+        for (const std::size_t tables : {1, 2}) {
+            kind.tables = tables;
+            for (unsigned seed = 0; seed < 300; ++seed) expect_equal(seed, kind);
+        }
+    }
+}
+
 TEST(Derivation, SubwordsAndTablesOfContextsEqualRewriting) {
     Kind kind;
     kind.contexts = true;
