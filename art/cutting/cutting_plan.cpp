@@ -1,5 +1,6 @@
 #include "art/cutting/cutting_plan.h"
 
+#include "art/cutting/nested_sheets.h"
 #include "art/drawing/ink_shape.h"
 #include "art/print/outline.h"
 
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <map>
 #include <stdexcept>
+#include <utility>
 
 namespace sikku {
 namespace {
@@ -40,51 +42,93 @@ public:
             return first.colour != second.colour ? first.colour < second.colour
                                                  : first.area > second.area * (1 + 1e-9);
         });
-        for (const std::size_t kind : order) lay(kind);
-        for (CuttingSheet& sheet : plan_.sheets) finish(sheet);
+        for (const CutKind& kind : plan_.kinds) area_of_all_ += kind.area * static_cast<double>(kind.pieces);
+        for (auto first = order.begin(); first != order.end();) {
+            const auto last = std::find_if(first, order.end(), [&](std::size_t kind) {
+                return plan_.kinds[kind].colour != plan_.kinds[*first].colour;
+            });
+            plan_colour(std::vector<std::size_t>(first, last));
+            first = last;
+        }
         if (plan_.sheet_count > 0) plan_.in_use /= static_cast<double>(plan_.sheet_count);
     }
 
 private:
-    void lay(std::size_t kind) {
-        const CutKind& piece = plan_.kinds[kind];
-        if (plan_.sheets.empty() || plan_.sheets.back().colour != piece.colour) free_.clear();
-        const std::vector<glm::dvec2> cut =
-            cut_outline(piece, options_.seam + options_.kerf / 2, "a piece on a cutting sheet");
-        const PieceRows rows(with_gap(cut), options_.grain, whole_, monitor_);
-        std::uint64_t left = piece.pieces;
-        const auto fill = [&](const Box& area) {
-            LaidPieces laid =
-                rows.fill(area, static_cast<std::size_t>(std::min<std::uint64_t>(left, most_pieces + 1)));
-            if (laid.copies.size() <= most_pieces) return laid;
-            throw std::runtime_error(fmt::format(
-                "more than {} pieces fit on one sheet; use smaller sheets or a longer step", most_pieces));
+    /// @param order  the kinds of one colour, the largest first
+    void plan_colour(const std::vector<std::size_t>& order) {
+        numbers_ = order;
+        kinds_.clear();
+        cuts_.clear();
+        rows_.clear();
+        double area = 0;
+        for (const std::size_t number : order) {
+            const CutKind& kind = plan_.kinds[number];
+            cuts_.push_back(cut_outline(kind, options_.seam + options_.kerf / 2, "a piece on a cutting sheet"));
+            kinds_.push_back({with_gap(cuts_.back()), kind.pieces, nullptr});
+            rows_.emplace_back(kinds_.back().outline, options_.grain, whole_, monitor_);
+            area += kind.area * static_cast<double>(kind.pieces);
+        }
+        for (std::size_t i = 0; i < order.size(); ++i) kinds_[i].rows = &rows_[i];
+        std::vector<SheetDraft> drafts = lay_rows();
+        const std::size_t most = most_sheets - plan_.sheets.size();
+        std::vector<SheetDraft> nested =
+            nest_sheets(kinds_, whole_, options_.grain, area / area_of_all_, most, monitor_);
+        // Pieces in rows share more of their cuts.
+        const bool is_less =
+            options_.gap > 0 ? needs_less(kinds_, nested, drafts) : count_of(nested) < count_of(drafts);
+        if (!nested.empty() && is_less) drafts = std::move(nested);
+        for (const SheetDraft& draft : drafts) add(draft);
+    }
+
+    /// Lays rows of one kind after another.
+    std::vector<SheetDraft> lay_rows() const {
+        std::vector<SheetDraft> drafts;
+        std::vector<FreeArea> free;
+        for (std::size_t i = 0; i < kinds_.size(); ++i) lay(i, drafts, free);
+        return drafts;
+    }
+    LaidPieces fill(std::size_t kind, const Box& area, std::uint64_t left) const {
+        LaidPieces laid =
+            rows_[kind].fill(area, static_cast<std::size_t>(std::min<std::uint64_t>(left, most_pieces + 1)));
+        if (laid.copies.size() <= most_pieces) return laid;
+        throw std::runtime_error(
+            fmt::format("more than {} pieces fit on one sheet; use smaller sheets or a longer step", most_pieces));
+    }
+    void lay(std::size_t kind, std::vector<SheetDraft>& drafts, std::vector<FreeArea>& free) const {
+        std::uint64_t left = kinds_[kind].pieces;
+        const auto add_copies = [&](std::size_t sheet, const LaidPieces& laid) {
+            for (const PieceCopy& copy : laid.copies) drafts[sheet].pieces.push_back({kind, copy});
+            // Repeated sheets are full.
+            if (drafts[sheet].copies > 1) return;
+            for (const Box& rest : {laid.beside, laid.below}) {
+                if (!rest.empty() && rest.low.y < rest.high.y) free.push_back({sheet, rest});
+            }
         };
-        for (std::size_t i = 0; i < free_.size() && left > 0; ++i) {
-            const FreeArea area = free_[i];
-            const LaidPieces laid = fill(area.box);
+        for (std::size_t i = 0; i < free.size() && left > 0; ++i) {
+            const FreeArea area = free[i];
+            const LaidPieces laid = fill(kind, area.box, left);
             if (laid.copies.empty()) continue;
             left -= laid.copies.size();
-            free_.erase(free_.begin() + static_cast<std::ptrdiff_t>(i--));
-            add(kind, cut, area.sheet, laid);
+            free.erase(free.begin() + static_cast<std::ptrdiff_t>(i--));
+            add_copies(area.sheet, laid);
         }
         while (left > 0) {
-            const LaidPieces laid = fill(whole_);
-            if (laid.copies.empty()) refuse(piece, rows.least_size());
-            if (plan_.sheets.size() == most_sheets) {
-                throw std::runtime_error(
-                    fmt::format("the pieces need more than {} different sheets; use larger ones", most_sheets));
-            }
-            CuttingSheet& sheet = plan_.sheets.emplace_back();
-            sheet.colour = piece.colour;
-            sheet.copies = left / laid.copies.size();
-            left -= sheet.copies * laid.copies.size();
-            add(kind, cut, plan_.sheets.size() - 1, laid);
+            const LaidPieces laid = fill(kind, whole_, left);
+            if (laid.copies.empty()) refuse(plan_.kinds[numbers_[kind]], rows_[kind].least_size());
+            require_few_sheets(drafts.size());
+            drafts.push_back({{}, left / laid.copies.size()});
+            left -= drafts.back().copies * laid.copies.size();
+            add_copies(drafts.size() - 1, laid);
         }
+    }
+    void require_few_sheets(std::size_t drafts) const {
+        if (plan_.sheets.size() + drafts < most_sheets) return;
+        throw std::runtime_error(
+            fmt::format("the pieces need more than {} different sheets; use larger ones", most_sheets));
     }
 
     /// Adds half a gap to an outline, or to its convex hull if notches are too narrow for that.
-    std::vector<glm::dvec2> with_gap(const std::vector<glm::dvec2>& cut) const {
+    Outline with_gap(const Outline& cut) const {
         try {
             return offset_outline(cut, options_.gap / 2);
         } catch (const std::runtime_error&) {
@@ -101,30 +145,28 @@ private:
                         options_.sheet.width - margins, options_.sheet.height - margins));
     }
 
-    /// Adds copies to a sheet and keeps the areas that they leave; repeated sheets are full.
-    void add(std::size_t kind, const std::vector<glm::dvec2>& cut, std::size_t sheet, const LaidPieces& laid) {
-        std::map<double, std::size_t> forms;
-        for (const PieceCopy& copy : laid.copies) {
-            const auto [at, is_new] = forms.try_emplace(copy.turn, plan_.forms.size());
-            if (is_new)
-                plan_.forms.push_back({kind, turned(cut, copy.turn), turned(plan_.kinds[kind].corners, copy.turn)});
-            plan_.sheets[sheet].pieces.push_back({at->second, copy.at});
-        }
-        auto& counts = plan_.sheets[sheet].counts;
-        if (counts.empty() || counts.back().first != kind) counts.emplace_back(kind, 0);
-        counts.back().second += laid.copies.size();
-        if (plan_.sheets[sheet].copies > 1) return;
-        for (const Box& rest : {laid.beside, laid.below}) {
-            if (!rest.empty() && rest.low.y < rest.high.y) free_.push_back({sheet, rest});
-        }
-    }
-
-    void finish(CuttingSheet& sheet) {
+    void add(const SheetDraft& draft) {
+        CuttingSheet& sheet = plan_.sheets.emplace_back();
+        sheet.colour = plan_.kinds[numbers_.front()].colour;
+        sheet.copies = draft.copies;
+        std::map<std::pair<std::size_t, double>, std::size_t> forms;
         double lowest = options_.sheet.height;
-        for (const PlacedForm& piece : sheet.pieces) {
-            const PieceForm& form = plan_.forms[piece.form];
+        for (const NestedPiece& piece : draft.pieces) {
+            const PieceCopy& copy = piece.copy;
+            const std::size_t kind = numbers_[piece.kind];
+            const auto [known, is_new] = forms.try_emplace({piece.kind, copy.turn}, plan_.forms.size());
+            if (is_new) {
+                plan_.forms.push_back(
+                    {kind, turned(cuts_[piece.kind], copy.turn), turned(plan_.kinds[kind].corners, copy.turn)});
+            }
+            sheet.pieces.push_back({known->second, copy.at});
+            const auto same = [&](const auto& count) { return count.first == kind; };
+            auto count = std::find_if(sheet.counts.begin(), sheet.counts.end(), same);
+            if (count == sheet.counts.end()) count = sheet.counts.insert(count, {kind, 0});
+            ++count->second;
+            const PieceForm& form = plan_.forms[known->second];
             sheet.in_use += polygon_area(form.cut) / (options_.sheet.width * options_.sheet.height);
-            for (const glm::dvec2 corner : form.cut) lowest = std::min(lowest, corner.y + piece.at.y);
+            for (const glm::dvec2 corner : form.cut) lowest = std::min(lowest, corner.y + copy.at.y);
         }
         sheet.length = options_.sheet.height - lowest;
         plan_.sheet_count += sheet.copies;
@@ -135,7 +177,12 @@ private:
     const CuttingOptions& options_;
     const Monitor& monitor_;
     Box whole_;
-    std::vector<FreeArea> free_;
+    double area_of_all_ = 0;  // of all pieces
+    /// Of the current colour, the largest first:
+    std::vector<std::size_t> numbers_;  // indexes into CuttingPlan::kinds
+    std::vector<Outline> cuts_;
+    std::vector<NestKind> kinds_;
+    std::vector<PieceRows> rows_;
 };
 
 }  // namespace

@@ -49,8 +49,9 @@ struct CuttingPlan {
     double in_use = 0;                 ///< area of the outlines to cut, as part of all sheets
 };
 
-/// Lays pieces on as few sheets as rows allow, the largest first, with separate sheets for each colour. Sheets full
-/// of one kind are planned once, so the cost does not depend on the number of pieces.
+/// Lays pieces in rows, the largest first, with separate sheets for each colour, or as nest_sheets() where that needs
+/// fewer sheets or, if there is a gap, a shorter one. Equal sheets are planned once, so the cost does not depend on
+/// the number of pieces.
 /// @param kinds  result of cut_list(), with directions if the options keep them
 /// @throws std::runtime_error for a piece that is larger than a sheet, for more than 1,000 kinds, 2,000 corners of a
 /// piece, 400 different sheets, and 200,000 pieces on one sheet, and as offset_outline(); Stopped
