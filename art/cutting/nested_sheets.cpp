@@ -17,7 +17,7 @@ namespace sikku {
 namespace {
 
 /// Pieces on a sheet, above which the search would take too long.
-constexpr double most_nested = 1'500;
+constexpr double most_nested_on_sheet = 1'500;
 /// Pairs of sides of no-fit polygons that are compared for all sheets of a plan: always, and where this may save a
 /// sheet.
 constexpr double usual_work = 3e8, most_work = 2e9;
@@ -101,7 +101,8 @@ private:
     void lay_rows(Draft& draft) const {
         const auto kind = static_cast<std::size_t>(
             std::find_if(left_.begin(), left_.end(), [](std::uint64_t count) { return count > 0; }) - left_.begin());
-        const auto most = static_cast<std::size_t>(std::min(static_cast<double>(left_[kind]), 2 * most_nested));
+        const auto most =
+            static_cast<std::size_t>(std::min(static_cast<double>(left_[kind]), 2 * most_nested_on_sheet));
         for (const PieceCopy& copy : kinds_[kind].rows->fill(area_, most).copies)
             draft.pieces.push_back({kind, copy});
         draft.left[kind] -= draft.pieces.size();
@@ -212,7 +213,7 @@ std::vector<SheetDraft> nest_sheets(std::span<const NestKind> kinds, const Box& 
         area_of_pieces += polygon_area(kind.outline) * count;
     }
     const double on_full_sheet = pieces * area.size().x * area.size().y / area_of_pieces;
-    if (std::min(pieces, on_full_sheet) > most_nested) return {};
+    if (std::min(pieces, on_full_sheet) > most_nested_on_sheet) return {};
     SheetNester nester(kinds, area, keeps_direction, monitor);
     if (!nester.is_possible()) return {};
     std::vector<SheetDraft> sheets = nester.plan(effort * usual_work, sheet_limit);

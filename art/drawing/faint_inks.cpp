@@ -8,7 +8,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <set>
-#include <unordered_set>
+#include <utility>
+#include <vector>
 
 namespace sikku {
 namespace {
@@ -64,6 +65,46 @@ private:
     std::size_t points_ = 0;
 };
 
+/// A set of hashed places: open addressing, without memory of its own for each.
+class PlaceSet {
+public:
+    void insert(std::uint64_t place) {
+        if (place == none) place = 1;
+        if (2 * (size_ + 1) > slots_.size()) grow();
+        std::uint64_t& slot = slots_[slot_of(slots_, place)];
+        size_ += slot == none ? 1 : 0;
+        slot = place;
+    }
+    std::size_t size() const { return size_; }
+    /// The number of places that are in another set, too.
+    std::size_t shared(const PlaceSet& other) const {
+        if (other.size_ == 0) return 0;
+        return static_cast<std::size_t>(std::count_if(slots_.begin(), slots_.end(), [&](std::uint64_t place) {
+            return place != none && other.slots_[slot_of(other.slots_, place)] == place;
+        }));
+    }
+
+private:
+    static constexpr std::uint64_t none = 0;
+
+    /// The slot of a place, or the empty one where it belongs.
+    static std::size_t slot_of(const std::vector<std::uint64_t>& slots, std::uint64_t place) {
+        std::size_t at = static_cast<std::size_t>(place >> 20U) & (slots.size() - 1);
+        while (slots[at] != none && slots[at] != place) at = (at + 1) & (slots.size() - 1);
+        return at;
+    }
+    void grow() {
+        std::vector<std::uint64_t> larger(std::max<std::size_t>(64, 2 * slots_.size()), none);
+        for (const std::uint64_t place : slots_) {
+            if (place != none) larger[slot_of(larger, place)] = place;
+        }
+        slots_ = std::move(larger);
+    }
+
+    std::vector<std::uint64_t> slots_;
+    std::size_t size_ = 0;
+};
+
 /// Finds faint ink. Faint lines along the edges of visible fills are seen as joints, and faint fills by visible lines
 /// or fills along their edges; fields of powders have to be visible themselves.
 class FaintSink : public PathSink {
@@ -104,20 +145,17 @@ public:
     }
 
 private:
-    using Places = std::unordered_set<std::uint64_t>;
     static constexpr std::size_t most_places = 1'000'000;
 
     /// Records the ends of lines or curves: each `stride`th point, from the last one.
-    void put(Places& places, std::span<const glm::dvec2> points, std::size_t stride) {
+    void put(PlaceSet& places, std::span<const glm::dvec2> points, std::size_t stride) {
         for (std::size_t i = stride - 1; i < points.size() && places.size() < most_places; i += stride) {
             const auto whole = [](double value) { return static_cast<std::uint64_t>(std::llround(value * 1e5)); };
-            places.insert(scrambled(whole(points[i].x)) ^ whole(points[i].y));
+            places.insert(scrambled(scrambled(whole(points[i].x)) ^ whole(points[i].y)));
         }
     }
-    static bool lies_on(const Places& places, const Places& others) {
-        const auto shared =
-            std::count_if(places.begin(), places.end(), [&](std::uint64_t place) { return others.contains(place); });
-        return 2 * static_cast<std::size_t>(shared) >= places.size() && !others.empty();
+    static bool lies_on(const PlaceSet& places, const PlaceSet& others) {
+        return 2 * places.shared(others) >= places.size() && others.size() > 0;
     }
 
     void line(std::span<const glm::dvec2> points, std::size_t stride) {
@@ -131,7 +169,7 @@ private:
         count(points.size());
         const Colour colour = print_.style.fill_colour(pen);
         if (colour.alpha == 0) return;
-        Places& places = note(FaintInk::Kind::areas, colour) ? faint_fills_ : visible_fills_;
+        PlaceSet& places = note(FaintInk::Kind::areas, colour) ? faint_fills_ : visible_fills_;
         // The outline of an area begins with its start.
         put(places, stride == 3 ? points.subspan(1) : points, stride);
     }
@@ -139,9 +177,18 @@ private:
         points_ += points;
         if (points_ > most_points) throw Found();
     }
+    bool is_faint_here(Colour colour) {
+        const auto known =
+            std::find_if(tested_.begin(), tested_.end(), [&](const auto& each) { return each.first == colour; });
+        if (known != tested_.end()) return known->second;
+        const bool is_found = is_faint(colour, ground_);
+        constexpr std::size_t most_tested = 16;
+        if (tested_.size() < most_tested) tested_.emplace_back(colour, is_found);
+        return is_found;
+    }
     /// @return true if the colour is faint
     bool note(FaintInk::Kind kind, Colour colour) {
-        if (!is_faint(colour, ground_)) return false;
+        if (!is_faint_here(colour)) return false;
         const bool is_known = std::any_of(inks_.begin(), inks_.end(),
                                           [&](const FaintInk& ink) { return ink.kind == kind && ink.ink == colour; });
         if (!is_known) inks_.push_back({kind, colour, ground_});
@@ -152,7 +199,8 @@ private:
     Colour ground_;
     Pen pen_;
     std::vector<FaintInk> inks_;
-    Places faint_lines_, visible_lines_, faint_fills_, visible_fills_;
+    std::vector<std::pair<Colour, bool>> tested_;  // colours, and whether they are faint
+    PlaceSet faint_lines_, visible_lines_, faint_fills_, visible_fills_;
     bool has_suspects_ = false;
     std::size_t points_ = 0;
 };
