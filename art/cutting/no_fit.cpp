@@ -218,16 +218,18 @@ void NoFit::find_border(const std::vector<Outline>& sums) {
             }
             places.resize(kept);
             const auto at = [&](double place) { return place == 1 ? to : from + place * along; };
-            std::optional<double> start;  // of the current part of the border
+            bool is_border = false;
+            glm::dvec2 start(0.0);  // of the current part of the border
             for (std::size_t k = 0; k < places.size(); ++k) {
                 const bool goes_on = k + 1 < places.size() && !overlaps(at((places[k] + places[k + 1]) / 2));
-                if (goes_on && !start) {
-                    start = places[k];
+                if (goes_on && !is_border) {
+                    is_border = true;
+                    start = at(places[k]);
+                    points_.push_back(start);
+                } else if (!goes_on && is_border) {
+                    sides_.push_back({start, at(places[k])});
                     points_.push_back(at(places[k]));
-                } else if (!goes_on && start) {
-                    sides_.push_back({at(*start), at(places[k])});
-                    points_.push_back(at(places[k]));
-                    start.reset();
+                    is_border = false;
                 } else if (!goes_on && !overlaps(at(places[k]))) {
                     points_.push_back(at(places[k]));
                 }

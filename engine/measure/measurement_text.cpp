@@ -20,7 +20,7 @@ std::string plain_number(double value) {
     return fmt::format("{}", value);
 }
 
-JsonText json(const Quantity& quantity) {
+JsonText quantity_json(const Quantity& quantity) {
     return quantity.digits.empty() ? JsonText::raw(plain_number(quantity.value)) : quantity.digits;
 }
 
@@ -73,20 +73,20 @@ std::string plain(const std::vector<Quantity>& list) {
 
 std::string measurement_json(const std::string& title, const Measurement& m) {
     std::vector<std::pair<std::string, JsonText>> counts;
-    for (const auto& [letter, count] : m.counts) counts.emplace_back(letter, json(count));
-    JsonText length = json(m.length);
+    for (const auto& [letter, count] : m.counts) counts.emplace_back(letter, quantity_json(count));
+    JsonText length = quantity_json(m.length);
     if (m.length.digits.empty() && length.text.find_first_not_of("0123456789") == std::string::npos) {
         length.text += ".0";
     }
     const std::optional<Geometry> g = geometry_of(m);
-    const auto list = [](const std::vector<Quantity>& values) { return JsonText::list(values, json); };
-    return JsonText::object("title", title, "n", JsonText::whole(m.n), "symbols", json(m.symbols), "counts",
-                            JsonText::object_of(counts), "drawn", json(m.drawn), "moves", json(m.moves), "length",
-                            length, "polygons", json(m.polygons), "box", g ? list(g->box) : nullptr, "ink",
-                            g && !g->ink.empty() ? list(g->ink) : nullptr, "end", g ? list(g->end) : nullptr,
-                            "heading", g && g->heading ? JsonText::raw(plain_number(*g->heading)) : nullptr, "closed",
-                            g ? JsonText(g->closed) : nullptr, "depth", g ? JsonText(g->depth) : nullptr, "derived",
-                            m.derived)
+    const auto list = [](const std::vector<Quantity>& values) { return JsonText::list(values, quantity_json); };
+    return JsonText::object(
+               "title", title, "n", JsonText::whole(m.n), "symbols", quantity_json(m.symbols), "counts",
+               JsonText::object_of(counts), "drawn", quantity_json(m.drawn), "moves", quantity_json(m.moves),
+               "length", length, "polygons", quantity_json(m.polygons), "box", g ? list(g->box) : nullptr, "ink",
+               g && !g->ink.empty() ? list(g->ink) : nullptr, "end", g ? list(g->end) : nullptr, "heading",
+               g && g->heading ? JsonText::raw(plain_number(*g->heading)) : nullptr, "closed",
+               g ? JsonText(g->closed) : nullptr, "depth", g ? JsonText(g->depth) : nullptr, "derived", m.derived)
         .line();
 }
 
