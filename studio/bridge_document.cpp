@@ -205,8 +205,8 @@ bool is_short(const Document& document, std::int64_t steps, double most, const M
 std::int64_t largest_map(const Document& document, double most, const Monitor& monitor) {
     if (document.grammar().has_schedule()) return -1;
     // Without a limit of edges, which is compared with all steps at once before the first is made.
-    constexpr double most_bytes = 1e9;
-    MapDerivation derivation(document.grammar(), {std::numeric_limits<double>::infinity(), most_bytes}, monitor);
+    constexpr double most_memory = 1e9;
+    MapDerivation derivation(document.grammar(), {std::numeric_limits<double>::infinity(), most_memory}, monitor);
     double edges = 0;
     try {
         while (derivation.next()) {
