@@ -184,6 +184,7 @@ Json answer(const Json& request, const std::string& file, const Monitor& monitor
     if (what == "measure") return answer_measure(request, monitor, bytes);
     if (what == "kolam") return answer_kolam(request, monitor, bytes);
     if (what == "check") return answer_check(request, monitor);
+    if (what == "editor") return answer_editor(request, monitor);
     if (what == "notes") return answer_notes(request, monitor, bytes);
     if (what == "affordable") return answer_affordable(request, monitor);
     if (what == "origins") return answer_origins(request, monitor);
