@@ -178,33 +178,35 @@ const char* format_to_check(const Interpreter& interpreter) {
 }
 
 /// True if the files and patterns that keys name, such as Scala files and borders, can be read.
-bool check_files(const NamedText& text) {
+bool check_files(const Document& document) {
+    const std::vector<Key>& keys = document.pattern().keys;
     bool good = true;
-    std::vector<std::string> variants = {""};
-    const Document plain = parse(text.name, text.text);
-    for (const Variant& variant : plain.pattern().variants) variants.emplace_back(variant.name.view());
-    for (const std::string& variant : variants) {
-        const Document document = parse(text.name, text.text, {variant, {}});
-        for (const Interpreter* interpreter : interpreters()) {
-            const std::vector<Key>& keys = document.pattern().keys;
-            const bool has_files = std::any_of(keys.begin(), keys.end(), [&](const Key& key) {
-                const KeyInfo* row = find_language_key(key.name);
-                return row && row->owner == interpreter->owner() && (names_file(key) || row->name == "border");
-            });
-            if (!has_files) continue;
-            try {
-                interpreter->plan(document, format_to_check(*interpreter), {});
-            } catch (const PatternError& error) {
-                for (const Diagnostic& diagnostic : error.diagnostics()) fmt::print("{}\n", diagnostic.text());
-                good = false;
-            } catch (const SettingError& error) {
-                fmt::print("{}: {}\n", text.name, error.what());
-                good = false;
-            }
+    for (const Interpreter* interpreter : interpreters()) {
+        const bool has_files = std::any_of(keys.begin(), keys.end(), [&](const Key& key) {
+            const KeyInfo* row = find_language_key(key.name);
+            return row && row->owner == interpreter->owner() && (names_file(key) || row->name == "border");
+        });
+        if (!has_files) continue;
+        try {
+            interpreter->plan(document, format_to_check(*interpreter), {});
+        } catch (const PatternError& error) {
+            for (const Diagnostic& diagnostic : error.diagnostics()) fmt::print("{}\n", diagnostic.text());
+            good = false;
+        } catch (const SettingError& error) {
+            fmt::print("{}: {}\n", document.source().name(), error.what());
+            good = false;
         }
-        if (!good) break;
     }
     return good;
+}
+
+/// The same with each variant, up to the first in which a file cannot be read.
+bool check_files_of_variants(const NamedText& text) {
+    const Document plain = parse(text.name, text.text);
+    const std::vector<Variant>& variants = plain.pattern().variants;
+    return check_files(plain) && std::all_of(variants.begin(), variants.end(), [&](const Variant& variant) {
+               return check_files(parse(text.name, text.text, {std::string(variant.name.view()), {}}));
+           });
 }
 
 /// True if the file is free of errors.
@@ -222,7 +224,7 @@ bool check(const std::string& file) {
         if (!diagnostic.warning) ++errors;
     }
     if (errors >= most_shown_errors) fmt::print("{}: the first {} errors are shown\n", file, errors);
-    return errors == 0 && check_files(copy);
+    return errors == 0 && check_files_of_variants(copy);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Builds everything that a release consists of: Debian packages, an archive to unpack anywhere, the source distribution
-# and the wheel for Python, the npm package, the page of the studio; the list of what they contain (SPDX) and SHA256SUMS.
+# and the wheel for Python, the npm package, the page of the studio, the extension for VS Code; the list of what they
+# contain (SPDX) and SHA256SUMS.
 # The same commit, Debian packages and npm give the same bytes in any folder at any time.
 # Everything is built from scratch, except the slim OpenImageIO if it is up to date.
 # usage: packaging/release.sh [OUTPUT_FOLDER]
@@ -42,6 +43,7 @@ packaging/deb.sh "$build" "$page" "$made"
 packaging/portable.sh "$build" "$page" "$made"
 packaging/wheel.sh "$build" "$made"
 packaging/sdist.sh "$made"
+packaging/editors/vscode.sh "$made"
 version=$(packaging/version.sh)
 cp "$page" "$made/sikku-studio-$version.html"
 packaging/sbom.py "$made" "$build"

@@ -62,6 +62,12 @@ def contained(artefact: Path) -> list[Component]:
         with zipfile.ZipFile(artefact) as archive:
             name = next(each for each in archive.namelist() if each.endswith("components.tsv"))
             return listed(archive.read(name).decode())
+    if artefact.suffix == ".vsix":
+        with zipfile.ZipFile(artefact) as archive:
+            text = archive.read("extension/dist/NOTICES.txt").decode()
+        # As packaging/editors/vscode/build.mjs writes it: `semver 7.8.6 (ISC)`, and the licence.
+        heads = [notice.partition("\n")[0] for notice in text.split("\n" + "-" * 80 + "\n\n")]
+        return [Component(*head.rstrip(")").replace("(", "").split(" ", 2)) for head in heads]
     with tarfile.open(artefact) as archive:
         for member in archive:
             if member.name.endswith(("components.tsv", "NOTICES.json")):
@@ -83,7 +89,7 @@ def main(folder: Path, build: Path) -> None:
     script = "import { notices } from './notices.mjs'; console.log(JSON.stringify(notices('node_modules')))"
     answer = subprocess.run(["node", "--input-type=module", "-e", script], check=True, capture_output=True, cwd="studio")
     page = of_notices(json.loads(answer.stdout))
-    known = re.compile(r"(sikku|libsikku-dev|python3-sikku|sikku-studio)[-_].*\.(deb|tar\.gz|whl|html)|sikku-.*\.tgz")
+    known = re.compile(r"(sikku|libsikku-dev|python3-sikku|sikku-studio)[-_].*\.(deb|tar\.gz|whl|html)|sikku-.*\.(tgz|vsix)")
     artefacts = sorted(folder.iterdir())
     for artefact in artefacts:
         if not known.fullmatch(artefact.name):

@@ -186,6 +186,7 @@ Json answer(const Json& request, const std::string& file, const Monitor& monitor
     if (what == "check") return answer_check(request, monitor);
     if (what == "unfit") return answer_unfit(request);
     if (what == "lines") return answer_lines(request, monitor, bytes);
+    if (what == "editor") return answer_editor(request, monitor);
     if (what == "notes") return answer_notes(request, monitor, bytes);
     if (what == "affordable") return answer_affordable(request, monitor);
     if (what == "origins") return answer_origins(request, monitor);

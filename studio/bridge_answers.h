@@ -45,6 +45,7 @@ Json answer_dots(const Json& request);
 Json answer_grid(const Json& request, const Monitor& monitor);
 Json answer_read(const Json& request, const std::string& file, const Monitor& monitor, std::string& bytes);
 Json answer_command(const Json& request);
+Json answer_editor(const Json& request, const Monitor& monitor);
 Json answer_link(const Json& request);
 Json answer_read_link(const Json& request);
 

@@ -7,13 +7,13 @@
 #include "engine/language/function_names.h"
 #include "music/scale/scale.h"
 #include "studio/editor/help.h"
+#include "studio/editor/request_members.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -22,7 +22,6 @@
 namespace sikku {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using Names = std::vector<std::string>;
 
 /// The kind of a symbol, as the studio colours it.

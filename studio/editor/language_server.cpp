@@ -1,17 +1,9 @@
 #include "studio/editor/language_server.h"
 
-#include "art/prints.h"
-#include "art/style/colour.h"
-#include "engine/base/characters.h"
 #include "engine/base/json.h"
-#include "engine/base/keys.h"
 #include "engine/base/text.h"
-#include "engine/check.h"
-#include "engine/language/defines.h"
-#include "music/scores.h"
-#include "studio/editor/format.h"
-#include "studio/editor/help.h"
-#include "studio/editor/measures.h"
+#include "engine/language/pattern.h"
+#include "studio/editor/answers.h"
 #include "studio/editor/rename.h"
 
 #include <fmt/format.h>
@@ -20,18 +12,12 @@
 #include <array>
 #include <atomic>
 #include <chrono>
-#include <cmath>
-#include <cstdint>
-#include <iterator>
 #include <new>
-#include <optional>
+#include <stdexcept>
 #include <utility>
-#include <vector>
 
 namespace sikku {
 namespace {
-
-using namespace std::chrono_literals;
 
 /// Codes of JSON-RPC and of the protocol.
 enum ErrorCode : int {
@@ -64,8 +50,8 @@ public:
     Deadline(std::chrono::milliseconds time, const Monitor& stop, const LanguageServer::HasNews* news = nullptr)
         : end_(std::chrono::steady_clock::now() + time), stop_(stop), news_(news) {}
     Monitor monitor() { return Monitor(&is_over, nullptr, this); }
-    /// Call after Stopped was caught. @throws Stopped if the program is asked to stop; Postponed
-    void require_timeout() const {
+    /// Call after the work. @throws Stopped if the program is asked to stop; Postponed
+    void require_no_news() const {
         stop_.check();
         if (has_news_) throw Postponed();
     }
@@ -83,154 +69,23 @@ private:
     std::atomic<bool> has_news_ = false;
 };
 
-constexpr auto checking_time = 2s;
-constexpr auto measuring_time = 500ms;
+constexpr std::chrono::seconds checking_time{2};
 
-std::span<const Interpreter* const> all_interpreters() {
-    static const std::array<const Interpreter*, 2> both = {&prints(), &scores()};
-    return both;
+/// True for requests of the user, which are refused if the document is too large. Editors send the others by
+/// themselves, again and again, and would show each error.
+bool is_of_user(std::string_view method) {
+    static constexpr std::array methods = {"textDocument/prepareRename", "textDocument/rename",
+                                           "textDocument/formatting"};
+    return std::find(methods.begin(), methods.end(), method) != methods.end();
 }
 
-/// The path in `file:///home/me/my%20pattern.lsys`; other addresses as they are.
-std::string path_of(const std::string& address) {
-    constexpr std::string_view scheme = "file://";
-    if (!address.starts_with(scheme)) return address;
-    std::string path;
-    for (std::size_t at = scheme.size(); at < address.size(); ++at) {
-        const auto value = [&](std::size_t place) {
-            const char digit = place < address.size() ? lower_case(address.substr(place, 1))[0] : ' ';
-            return is_digit(digit) ? digit - '0' : digit >= 'a' && digit <= 'f' ? digit - 'a' + 10 : -1;
-        };
-        if (address[at] == '%' && value(at + 1) >= 0 && value(at + 2) >= 0) {
-            path += static_cast<char>(16 * value(at + 1) + value(at + 2));
-            at += 2;
-        } else {
-            path += address[at];
-        }
-    }
-    return path.find('\0') == std::string::npos ? path : address;
-}
-
-EditorPosition place_of(const Json& position) {
-    return {position_of(position, "line"), position_of(position, "character")};
-}
-
-Json json_of(const EditorPosition& position) {
-    return {{"line", position.line}, {"character", position.character}};
-}
-
-Json range_of(const TextPositions& positions, std::size_t begin, std::size_t end) {
-    return {{"start", json_of(positions.position(begin))}, {"end", json_of(positions.position(end))}};
-}
-
-Json range_of(const TextPositions& positions, const Span& span) {
-    return range_of(positions, span.at, std::size_t{span.at} + span.length);
-}
-
-/// The end of the word or character at a byte; at a line end, the byte itself.
-std::size_t end_of_word(std::string_view text, std::size_t begin) {
-    std::size_t end = begin;
-    if (end >= text.size() || text[end] == '\n' || text[end] == '\r') return end;
-    if (begins_name(text[end])) {
-        while (end < text.size() && continues_name(text[end])) ++end;
-        return end;
-    }
-    return end + 1;  // other bytes are ASCII
-}
-
-Json markdown(const std::string& text) {
-    return {{"kind", "markdown"}, {"value", text}};
-}
-
-/// Parts of a value that are separated by blanks or commas.
-template <class Take>
-void for_each_word(const Span& value, Take take) {
-    std::string_view rest = value.view();
-    for (std::string_view word = take_word(rest, " \t,"); !word.empty(); word = take_word(rest, " \t,")) {
-        take(word, value.part(value.length - rest.size() - word.size(), word.size()));
-    }
-}
-
-bool has_colours(const std::string& name) {
-    const KeyInfo* key = find_language_key(lower_case(name));
-    return key && key->owner == KeyOwner::art && key->values.find("colour") != std::string_view::npos;
-}
-
-/// Kinds of names that editors colour. The grammar colours symbols of one character.
-constexpr std::array token_types = {"property", "class", "variable", "parameter", "operator", "function"};
-std::optional<std::size_t> token_type(const Occurrence& name) {
-    switch (name.kind) {
-        case NameKind::key:
-            return 0;
-        case NameKind::table:
-        case NameKind::variant:
-        case NameKind::surface:
-            return 1;
-        case NameKind::define:
-            return 2;
-        case NameKind::formal:
-            return 3;
-        case NameKind::arrow:
-            return 4;
-        case NameKind::symbol:
-            if (name.where.length > utf8_length(name.where.view())) return 5;
-            break;
-    }
-    return std::nullopt;
+/// The answer about a document that is too large.
+Json no_answer(std::string_view method) {
+    if (is_of_user(method)) throw ServerError(request_failed, "the document is too large");
+    return method == "textDocument/documentColor" ? Json::array() : Json(nullptr);
 }
 
 }  // namespace
-
-/// A document as it is read for a request.
-struct LanguageServer::View {
-    explicit View(const OpenDocument& document)
-        : pattern(parse_pattern(document.name, document.text, diagnostics)), positions(pattern.source->text()) {
-        if (!diagnostics.is_unreadable()) names = occurrences(pattern);
-    }
-    std::size_t offset(const Json& parameters) const {
-        return positions.offset(place_of(member(parameters, "position")));
-    }
-    const Occurrence* name_at(const Json& parameters) const { return find_occurrence(names, offset(parameters)); }
-    Json edits(const std::vector<TextEdit>& list) const {
-        Json result = Json::array();
-        for (const TextEdit& edit : list) {
-            result.push_back({{"range", range_of(positions, edit.begin, edit.end)}, {"newText", edit.text}});
-        }
-        return result;
-    }
-
-    Diagnostics diagnostics;
-    Pattern pattern;
-    TextPositions positions;
-    std::vector<Occurrence> names;
-};
-
-struct LanguageServer::Method {
-    std::string_view name;
-    Answer answer;
-};
-
-const LanguageServer::Method* LanguageServer::find_method(std::string_view name) {
-    static constexpr std::array methods = {
-        Method{"initialize", &LanguageServer::initialize},
-        Method{"shutdown", &LanguageServer::shutdown},
-        Method{"textDocument/hover", &LanguageServer::hover},
-        Method{"textDocument/completion", &LanguageServer::completion},
-        Method{"textDocument/definition", &LanguageServer::definition},
-        Method{"textDocument/prepareRename", &LanguageServer::prepare_rename},
-        Method{"textDocument/rename", &LanguageServer::rename},
-        Method{"textDocument/formatting", &LanguageServer::format},
-        Method{"textDocument/documentColor", &LanguageServer::colours},
-        Method{"textDocument/colorPresentation", &LanguageServer::colour_texts},
-        Method{"textDocument/codeLens", &LanguageServer::lenses},
-        Method{"textDocument/semanticTokens/full", &LanguageServer::tokens},
-    };
-    const auto* found =
-        std::find_if(methods.begin(), methods.end(), [&](const Method& method) { return method.name == name; });
-    return found == methods.end() ? nullptr : found;
-}
-
-// --- messages ---------------------------------------------------------------------------------------------------
 
 void LanguageServer::reply(const Json& id, const char* member, Json value) {
     const Json message = {{"jsonrpc", "2.0"}, {"id", id}, {member, std::move(value)}};
@@ -289,8 +144,7 @@ void LanguageServer::work() {
     Json id = nullptr, result;
     const auto fail = [&](int code, const std::string& reason) {
         if (is_request) return reply(id, "error", {{"code", code}, {"message", reason}});
-        constexpr int error = 1;
-        notify("window/logMessage", {{"type", error}, {"message", reason}});
+        notify("window/logMessage", {{"type", Severity::error}, {"message", reason}});
     };
     try {
         if (is_request && (request["id"].is_string() || request["id"].is_number())) id = request["id"];
@@ -328,122 +182,23 @@ Json LanguageServer::answer(const std::string& method, const Json& parameters) {
     if (!is_initialized_ && method != "initialize") {
         throw ServerError(not_initialized, "expected the request 'initialize' before any other");
     }
-    const Method* found = find_method(method);
+    if (method == "initialize") return initialize();
+    if (method == "shutdown") {
+        is_shut_down_ = true;
+        return nullptr;
+    }
+    if (method == "textDocument/colorPresentation") return colour_texts(parameters);
+    const EditorAnswer found = find_editor_answer(method);
     if (!found) throw ServerError(unknown_method, fmt::format("unknown method '{}'", printable(method, 80)));
-    return (this->*found->answer)(parameters);
+    const OpenDocument& document = documents_.at(text_of(member(parameters, "textDocument"), "uri"));
+    if (document.is_too_large()) return no_answer(method);
+    Deadline deadline(measuring_time, stop_, &news_);
+    Json result = found(ReadPattern(document.name, document.text), parameters, deadline.monitor());
+    deadline.require_no_news();
+    return result;
 }
 
-void LanguageServer::notice(const std::string& method, const Json& parameters) {
-    if (method == "exit") has_ended_ = true;
-    if (!is_initialized_ || is_shut_down_) return;
-    if (method == "textDocument/didOpen") {
-        const Json& document = member(parameters, "textDocument");
-        put(document, text_of(document, "text"));
-    } else if (method == "textDocument/didChange") {
-        change(member(parameters, "textDocument"), member(parameters, "contentChanges"));
-    } else if (method == "textDocument/didClose") {
-        const std::string address = text_of(member(parameters, "textDocument"), "uri");
-        const auto found = documents_.find(address);
-        if (found == documents_.end()) return;
-        open_bytes_ -= found->second.text.size();
-        documents_.erase(found);
-        notify("textDocument/publishDiagnostics", {{"uri", address}, {"diagnostics", Json::array()}});
-    }
-}
-
-// --- documents --------------------------------------------------------------------------------------------------
-
-void LanguageServer::put(const Json& document, const std::string& text) {
-    const std::string address = text_of(document, "uri");
-    OpenDocument& open = documents_[address];
-    open_bytes_ -= open.text.size();
-    open.name = path_of(address);
-    open.size = text.size();
-    open.is_changed = true;
-    open.text.clear();
-    if (text.size() <= most_document_bytes && open_bytes_ + text.size() <= most_open_bytes) open.text = text;
-    open_bytes_ += open.text.size();
-}
-
-/// The server requests whole texts, but also accepts changed parts.
-void LanguageServer::change(const Json& document, const Json& changes) {
-    if (!changes.is_array()) throw BadRequest("'contentChanges' must be a list");
-    for (const Json& each : changes) {
-        std::string text = text_of(each, "text");
-        if (each.contains("range")) {
-            const auto found = documents_.find(text_of(document, "uri"));
-            if (found == documents_.end()) throw BadRequest("the document is not open");
-            const std::string& old = found->second.text;
-            if (!found->second.is_served()) throw BadRequest("the document is too large");
-            const TextPositions positions(old);
-            const auto offset = [&](const char* name) {
-                return positions.offset(place_of(member(each["range"], name)));
-            };
-            const std::size_t begin = offset("start");
-            text = with_edits(old, {{begin, std::max(begin, offset("end")), text}});
-        }
-        put(document, text);
-    }
-}
-
-const LanguageServer::OpenDocument& LanguageServer::document_of(const Json& parameters) const {
-    const auto found = documents_.find(text_of(member(parameters, "textDocument"), "uri"));
-    if (found == documents_.end()) throw BadRequest("the document is not open");
-    if (!found->second.is_served()) throw ServerError(request_failed, "the document is too large");
-    return found->second;
-}
-
-void LanguageServer::publish() {
-    const bool changes = std::any_of(waiting_.begin(), waiting_.end(), [](const Json& message) {
-        return message["method"] == "textDocument/didChange";
-    });
-    if (changes) return;
-    for (auto& [address, document] : documents_) {
-        if (!document.is_changed) continue;
-        document.is_changed = false;
-        notify("textDocument/publishDiagnostics", {{"uri", address}, {"diagnostics", diagnostics_of(document)}});
-    }
-}
-
-Json LanguageServer::diagnostics_of(const OpenDocument& document) const {
-    enum Severity : int { error = 1, warning = 2 };
-    const TextPositions positions(document.text);
-    const auto entry = [&](std::size_t begin, std::size_t end, int severity, const std::string& message) -> Json {
-        return {{"range", range_of(positions, begin, end)},
-                {"severity", severity},
-                {"source", "sikku"},
-                {"message", message}};
-    };
-    if (!document.is_served()) {
-        return Json::array(
-            {entry(0, 0, error,
-                   fmt::format("this document of {} is too large for an editor; the limits are 4 MB for a "
-                               "document and 64 MB for all open documents",
-                               bytes_text(static_cast<double>(document.size))))});
-    }
-    Json list = Json::array();
-    try {
-        Deadline deadline(checking_time, stop_);
-        for (const Diagnostic& one :
-             check_pattern(document.name, document.text, all_interpreters(), deadline.monitor())) {
-            const bool is_in_text = one.where.line > 0;
-            const std::size_t begin = is_in_text ? positions.offset(one.where) : 0;
-            const std::size_t end = is_in_text ? end_of_word(document.text, begin) : 0;
-            list.push_back(entry(begin, end, one.warning ? warning : error,
-                                 is_in_text ? one.message : one.file + ": " + one.message));
-        }
-    } catch (const Stopped&) {
-        stop_.check();
-        list.push_back(entry(0, 0, warning, "the pattern was not checked: checking takes longer than 2 s"));
-    } catch (const std::bad_alloc&) {
-        list.push_back(entry(0, 0, warning, "the pattern was not checked: not enough memory"));
-    }
-    return list;
-}
-
-// --- requests ---------------------------------------------------------------------------------------------------
-
-Json LanguageServer::initialize(const Json& /*parameters*/) {
+Json LanguageServer::initialize() {
     if (is_initialized_) throw ServerError(invalid_request, "the server is already initialized");
     is_initialized_ = true;
     const Json capabilities = {
@@ -456,188 +211,54 @@ Json LanguageServer::initialize(const Json& /*parameters*/) {
         {"colorProvider", true},
         {"codeLensProvider", {{"resolveProvider", false}}},
         {"semanticTokensProvider",
-         {{"legend", {{"tokenTypes", token_types}, {"tokenModifiers", Json::array()}}}, {"full", true}}}};
+         {{"legend", {{"tokenTypes", token_types()}, {"tokenModifiers", Json::array()}}}, {"full", true}}}};
     return {{"capabilities", capabilities}, {"serverInfo", {{"name", "sikku"}, {"version", SIKKU_VERSION}}}};
 }
 
-Json LanguageServer::shutdown(const Json& /*parameters*/) {
-    is_shut_down_ = true;
-    return nullptr;
-}
-
-Json LanguageServer::hover(const Json& parameters) {
-    const OpenDocument& document = document_of(parameters);
-    const View view(document);
-    const Occurrence* name = view.name_at(parameters);
-    std::string help = name ? help_for(*name, view.pattern, view.names) : "";
-    if (help.empty()) return nullptr;
-    if (name->kind == NameKind::key && lower_case(name->where.view()) == "derivation length") {
-        Diagnostics diagnostics;
-        const Document compiled = Document::compile(document.name, document.text, {}, diagnostics);
-        Deadline deadline(measuring_time, stop_, &news_);
-        try {
-            if (!diagnostics.has_errors()) help += "\n\n" + growth_table(compiled, deadline.monitor());
-        } catch (const Stopped&) {
-            deadline.require_timeout();
-        }
+void LanguageServer::notice(const std::string& method, const Json& parameters) {
+    if (method == "exit") has_ended_ = true;
+    if (!is_initialized_ || is_shut_down_) return;
+    const auto address = [&](const Json& document) { return text_of(document, "uri"); };
+    if (method == "textDocument/didOpen") {
+        const Json& document = member(parameters, "textDocument");
+        documents_.put(address(document), text_of(document, "text"));
+    } else if (method == "textDocument/didChange") {
+        documents_.change(address(member(parameters, "textDocument")), member(parameters, "contentChanges"));
+    } else if (method == "textDocument/didClose") {
+        const std::string closed = address(member(parameters, "textDocument"));
+        if (!documents_.close(closed)) return;
+        notify("textDocument/publishDiagnostics", {{"uri", closed}, {"diagnostics", Json::array()}});
     }
-    return {{"contents", markdown(help)}, {"range", range_of(view.positions, name->where)}};
 }
 
-Json LanguageServer::completion(const Json& parameters) {
-    enum ItemKind : int { property = 10, value = 12 };
-    const View view(document_of(parameters));
-    const std::size_t cursor = view.offset(parameters);
-    const Completions found = complete(view.pattern, cursor);
-    const Json range = range_of(view.positions, found.begin, cursor);
-    Json items = Json::array();
-    for (const Completion& each : found.items) {
-        Json item = {{"label", each.label},
-                     {"kind", each.is_key ? property : value},
-                     {"textEdit", {{"range", range}, {"newText", each.insert}}}};
-        if (!each.detail.empty()) item["detail"] = each.detail;
-        if (!each.help.empty()) item["documentation"] = markdown(each.help);
-        items.push_back(std::move(item));
+void LanguageServer::publish() {
+    const bool changes = std::any_of(waiting_.begin(), waiting_.end(), [](const Json& message) {
+        return message["method"] == "textDocument/didChange";
+    });
+    if (changes) return;
+    for (auto& [address, document] : documents_.all()) {
+        if (!document.is_changed) continue;
+        document.is_changed = false;
+        notify("textDocument/publishDiagnostics", {{"uri", address}, {"diagnostics", diagnostics_of(document)}});
+        if (!document.is_too_large() || document.is_refusal_told) continue;
+        document.is_refusal_told = true;
+        notify("window/showMessage",
+               {{"type", Severity::warning}, {"message", document.name + ": " + too_large_text(document)}});
     }
-    return {{"isIncomplete", false}, {"items", std::move(items)}};
 }
 
-Json LanguageServer::definition(const Json& parameters) {
-    const View view(document_of(parameters));
-    const Occurrence* name = view.name_at(parameters);
-    if (!name) return nullptr;
-    Json places = Json::array();
-    for (const Occurrence& each : view.names) {
-        if (!each.is_definition || !each.is_same(*name)) continue;
-        places.push_back({{"uri", member(member(parameters, "textDocument"), "uri")},
-                          {"range", range_of(view.positions, each.where)}});
-    }
-    return places;
-}
-
-Json LanguageServer::prepare_rename(const Json& parameters) {
-    const View view(document_of(parameters));
-    const Occurrence* name = view.name_at(parameters);
-    require_renamable(name);
-    return {{"range", range_of(view.positions, name->where)}, {"placeholder", name->where.view()}};
-}
-
-Json LanguageServer::rename(const Json& parameters) {
-    const View view(document_of(parameters));
-    const Occurrence* name = view.name_at(parameters);
-    require_renamable(name);
-    const std::vector<TextEdit> edits = renaming(view.pattern, view.names, *name, text_of(parameters, "newName"));
-    Json changes = Json::object();
-    changes[text_of(member(parameters, "textDocument"), "uri")] = view.edits(edits);
-    return {{"changes", std::move(changes)}};
-}
-
-Json LanguageServer::format(const Json& parameters) {
-    const View view(document_of(parameters));
-    if (view.diagnostics.is_unreadable()) return Json::array();
-    return view.edits(formatting(view.pattern));
-}
-
-Json LanguageServer::colours(const Json& parameters) {
-    const View view(document_of(parameters));
-    Json list = Json::array();
-    const auto look = [&](const Key& key) {
-        if (!has_colours(key.name)) return;
-        for_each_word(key.value, [&](std::string_view word, const Span& where) {
-            const auto colour = parse_colour(word);
-            if (!colour) return;
-            const auto share = [](std::uint8_t channel) { return channel / 255.0; };
-            list.push_back({{"range", range_of(view.positions, where)},
-                            {"color",
-                             {{"red", share(colour->red)},
-                              {"green", share(colour->green)},
-                              {"blue", share(colour->blue)},
-                              {"alpha", share(colour->alpha)}}}});
-        });
-    };
-    for (const Key& key : view.pattern.keys) {
-        if (key.value.source == view.pattern.source.get()) look(key);
-    }
-    for (const Variant& variant : view.pattern.variants) {
-        for (const Key& setting : variant.settings) look(setting);
-    }
-    return list;
-}
-
-Json LanguageServer::colour_texts(const Json& parameters) {
-    const Json& colour = member(parameters, "color");
-    const auto channel = [&](const char* name, double otherwise) {
-        return static_cast<unsigned>(std::lround(255 * std::clamp(number_of(colour, name, otherwise), 0.0, 1.0)));
-    };
-    std::string text = fmt::format("#{:02x}{:02x}{:02x}", channel("red", 0), channel("green", 0), channel("blue", 0));
-    const unsigned alpha = channel("alpha", 1);
-    Json list = Json::array();
-    if (alpha < 255) {
-        list.push_back({{"label", fmt::format("{}{:02x}", text, alpha)}});
-        return list;
-    }
-    const std::string name = colour_name(*parse_colour(text));
-    list.push_back({{"label", text}});
-    if (name != text) list.push_back({{"label", name}});
-    return list;
-}
-
-Json LanguageServer::lenses(const Json& parameters) {
-    const OpenDocument& document = document_of(parameters);
-    const View view(document);
-    Json list = Json::array();
-    Deadline deadline(measuring_time, stop_, &news_);
-    const auto add = [&](const Document& drawn, const Span& where) {
-        const std::string text = measures_text(drawn, deadline.monitor());
-        if (text.empty()) return;
-        list.push_back(
-            {{"range", range_of(view.positions, where)},
-             {"command", {{"title", fmt::format("n = {}: {}", drawn.grammar().steps(), text)}, {"command", ""}}}});
-    };
-    const auto compiled = [&](const std::string& variant) -> std::optional<Document> {
-        Diagnostics diagnostics;
-        Document result = Document::compile(document.name, document.text, {variant, {}}, diagnostics);
-        return diagnostics.has_errors() ? std::nullopt : std::optional(std::move(result));
-    };
+Json LanguageServer::diagnostics_of(const OpenDocument& document) const {
+    if (document.is_too_large()) return whole_document_diagnostics(Severity::error, too_large_text(document));
+    Deadline deadline(checking_time, stop_);
     try {
-        const auto plain = compiled("");
-        const Key* length = view.pattern.find("derivation length");
-        if (plain && length) {
-            add(*plain, length->name_at);
-            try {
-                const auto next = static_cast<std::int64_t>(plain->grammar().steps()) + 1;
-                add(plain->with({{"derivation length", fmt::format("{}", next)}}), length->name_at);
-            } catch (const PatternError&) {  // the schedule ends there
-            }
-        }
-        for (const Variant& variant : view.pattern.variants) {
-            deadline.monitor().check();
-            if (const auto varied = compiled(std::string(variant.name.view()))) add(*varied, variant.name);
-        }
+        return editor_diagnostics(document.name, document.text, deadline.monitor());
     } catch (const Stopped&) {
-        deadline.require_timeout();  // those found so far are shown
+        stop_.check();
+        return whole_document_diagnostics(Severity::warning,
+                                          "the pattern was not checked: checking takes longer than 2 s");
+    } catch (const std::bad_alloc&) {
+        return whole_document_diagnostics(Severity::warning, "the pattern was not checked: not enough memory");
     }
-    return list;
-}
-
-Json LanguageServer::tokens(const Json& parameters) {
-    const View view(document_of(parameters));
-    Json data = Json::array();
-    EditorPosition last;
-    for (const Occurrence& each : view.names) {
-        const auto type = token_type(each);
-        if (!type) continue;
-        const EditorPosition begin = view.positions.position(each.where.at);
-        const EditorPosition end = view.positions.position(std::size_t{each.where.at} + each.where.length);
-        if (end.line != begin.line) continue;  // a continued line
-        data.push_back(begin.line - last.line);
-        data.push_back(begin.line == last.line ? begin.character - last.character : begin.character);
-        data.push_back(end.character - begin.character);
-        data.push_back(*type);
-        data.push_back(0);
-        last = begin;
-    }
-    return {{"data", std::move(data)}};
 }
 
 }  // namespace sikku

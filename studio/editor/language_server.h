@@ -3,16 +3,13 @@
 #pragma once
 
 #include "engine/base/monitor.h"
-#include "studio/editor/occurrences.h"
+#include "studio/editor/open_documents.h"
 #include "studio/editor/request_members.h"
-#include "studio/editor/text_edit.h"
 
-#include <cstddef>
 #include <deque>
 #include <functional>
-#include <map>
 #include <string>
-#include <string_view>
+#include <utility>
 
 namespace sikku {
 
@@ -22,11 +19,6 @@ class LanguageServer {
 public:
     /// Receives an outgoing message: JSON, without its header.
     using Send = std::function<void(const std::string& message)>;
-
-    /// The size of the largest document that is served, in bytes; for a larger one, only its size is reported.
-    static constexpr std::size_t most_document_bytes = std::size_t{4} << 20U;
-    /// The largest size of all open documents together, in bytes.
-    static constexpr std::size_t most_open_bytes = std::size_t{64} << 20U;
 
     /// True if messages arrived that receive() has not been given yet.
     using HasNews = std::function<bool()>;
@@ -56,48 +48,19 @@ public:
     int exit_status() const { return is_shut_down_ ? 0 : 1; }
 
 private:
-    struct OpenDocument {
-        std::string name;      ///< path of the file, for messages and for files that the pattern names
-        std::string text;      ///< empty if it is too large
-        std::size_t size = 0;  ///< bytes
-        bool is_changed = true;
-        bool is_served() const { return size == text.size(); }
-    };
-    struct View;  // an open document as it is read for a request
-
-    using Answer = Json (LanguageServer::*)(const Json& parameters);
-    struct Method;
-    static const Method* find_method(std::string_view name);
-
     void cancel(const Json& id);
     Json answer(const std::string& method, const Json& parameters);
+    Json initialize();
     void notice(const std::string& method, const Json& parameters);
     void reply(const Json& id, const char* member, Json value);
     void notify(const char* method, Json parameters);
-    void put(const Json& document, const std::string& text);
-    void change(const Json& document, const Json& changes);
     Json diagnostics_of(const OpenDocument& document) const;
-    const OpenDocument& document_of(const Json& parameters) const;
-
-    Json initialize(const Json& parameters);
-    Json shutdown(const Json& parameters);
-    Json hover(const Json& parameters);
-    Json completion(const Json& parameters);
-    Json definition(const Json& parameters);
-    Json prepare_rename(const Json& parameters);
-    Json rename(const Json& parameters);
-    Json format(const Json& parameters);
-    Json colours(const Json& parameters);
-    Json colour_texts(const Json& parameters);
-    Json lenses(const Json& parameters);
-    Json tokens(const Json& parameters);
 
     Send send_;
     HasNews news_;
     Monitor stop_;
-    std::deque<Json> waiting_;                       // messages, the oldest first
-    std::map<std::string, OpenDocument> documents_;  // by address
-    std::size_t open_bytes_ = 0;
+    std::deque<Json> waiting_;  // messages, the oldest first
+    OpenDocuments documents_;
     bool is_initialized_ = false;
     bool is_shut_down_ = false;
     bool has_ended_ = false;

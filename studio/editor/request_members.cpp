@@ -64,4 +64,8 @@ std::size_t position_of(const Json& request, const std::string& name) {
     return value.get<std::size_t>();
 }
 
+EditorPosition place_of(const Json& position) {
+    return {position_of(position, "line"), position_of(position, "character")};
+}
+
 }  // namespace sikku

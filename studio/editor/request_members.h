@@ -1,6 +1,8 @@
 // studio/editor/request_members.h: reads the members of untrusted requests in JSON.
 #pragma once
 
+#include "studio/editor/text_edit.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <nlohmann/json.hpp>
@@ -29,6 +31,8 @@ std::uint64_t whole_of(const Json& value, const std::string& name);
 bool flag_of(const Json& request, const std::string& name);
 /// A line or column from 0. @throws BadRequest
 std::size_t position_of(const Json& request, const std::string& name);
+/// `{"line": 2, "character": 7}`. @throws BadRequest
+EditorPosition place_of(const Json& position);
 
 /// Reads pairs of strings: `[["size", "A3"], …]`; empty if the member is missing.
 std::vector<std::pair<std::string, std::string>> pairs_of(const Json& request, const std::string& name);

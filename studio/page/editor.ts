@@ -23,6 +23,7 @@ import { colour_swatches } from "./colour_swatches";
 import { correctedLine } from "./corrections";
 import { button, byId, element } from "./elements";
 import { completePattern, cursorHelp, hoverHelp } from "./help_in_text";
+import { namesInText } from "./names_in_text";
 import { counted } from "./numbers_shown";
 import { pattern_colours, pattern_language } from "./pattern_language";
 import type { Diagnostic, Failure, Place } from "./protocol";
@@ -176,6 +177,7 @@ export class Editor {
             autocompletion({ override: [completePattern(() => this.application)], icons: false }),
             hoverHelp(() => this.application),
             cursorHelp(() => this.application),
+            namesInText(() => this.application),
             EditorView.contentAttributes.of({ "aria-label": "Text of the pattern", spellcheck: "false" }),
             keymap.of([
                 { key: "Mod-z", run: undo },

@@ -1,135 +1,55 @@
-// Help in the editor: tooltips for keys and symbols, and completion. All help texts come from the libraries.
+// Help in the editor: tooltips and completion, as the libraries answer them.
 import type { Completion, CompletionContext, CompletionResult, CompletionSource } from "@codemirror/autocomplete";
 import { type Extension, StateEffect, StateField } from "@codemirror/state";
 import { EditorView, hoverTooltip, keymap, showTooltip, type Tooltip } from "@codemirror/view";
 import type { Application } from "./application";
+import { askAt, rangeOf } from "./editor_requests";
 import { element } from "./elements";
-import { capital } from "./numbers_shown";
-import { kindOf } from "./pattern_language";
-import type { KeyHelp } from "./protocol";
+import { fromMarkdown } from "./markdown";
+import type { CompletionItem } from "./protocol";
 
 type Where = () => Application;
 
-/// The help of a key: what it does, its values, and its default.
-export function keyCard(key: KeyHelp): HTMLElement {
-    const card = element("div", { class: "help-card" }, element("strong", {}, key.name), element("p", {}, key.help));
-    const facts = element("dl");
-    if (key.values) facts.append(element("dt", {}, "Values"), element("dd", {}, key.values));
-    if (key.if_absent) facts.append(element("dt", {}, "If absent"), element("dd", {}, key.if_absent));
-    card.append(facts);
-    return card;
+const key_kind = 10; // CompletionItemKind.Property of the protocol
+
+function card(markdown: string): HTMLElement {
+    return element("div", { class: "help-card" }, ...fromMarkdown(markdown));
 }
 
-// Values such as `right, left`: only names are offered, not prose.
-function choices(key: KeyHelp): string[] {
-    if (/\b(a|an|the|such|or|with)\b|;/.test(key.values)) return [];
-    return key.values
-        .split(",")
-        .map((each) => each.trim())
-        .filter((each) => /^[\p{L}\d/ ]+$/u.test(each));
+function completionOf({ label, kind, detail, documentation, textEdit }: CompletionItem): Completion {
+    const completion: Completion = { label, apply: textEdit.newText, type: kind === key_kind ? "property" : "text" };
+    if (detail) completion.detail = detail;
+    if (documentation) completion.info = () => card(documentation.value);
+    return completion;
 }
 
-/// Completes keys at the beginning of a line, and values after a key.
+/// Completes keys at the beginning of a line, values after a key, and tables in a schedule.
 export function completePattern(where: Where): CompletionSource {
-    return (context: CompletionContext): CompletionResult | null => {
-        const { help } = where();
-        if (!help) return null;
-        const line = context.state.doc.lineAt(context.pos);
-        const before = line.text.slice(0, context.pos - line.from);
-        const value = /^\s*([\p{L} ]+?)\s*:\s*([\p{L}\d/ ]*)$/u.exec(before);
-        if (value) {
-            const key = help.keys.find((each) => each.name === value[1]);
-            const options = key ? choices(key) : [];
-            return options.length === 0
-                ? null
-                : { from: context.pos - value[2]!.length, options: options.map((label) => ({ label })) };
-        }
-        const name = /^\s*([\p{L} ]*)$/u.exec(before);
-        if (!name || (name[1] === "" && !context.explicit)) return null;
-        const set = new Set(
-            context.state.doc
-                .toString()
-                .split("\n")
-                .map((each) => /^\s*([\p{L} ]+?)\s*:/u.exec(each)?.[1]),
-        );
-        const options = help.keys
-            .filter((key) => !set.has(key.name))
-            .map((key): Completion => ({
-                label: key.name,
-                apply: `${key.name}: `,
-                detail: key.values.length < 28 ? key.values : "",
-                info: () => keyCard(key),
-                type: "property",
-            }));
-        return { from: context.pos - name[1]!.length, options, validFor: /^[\p{L} ]*$/u };
+    return async ({ state, pos, explicit }: CompletionContext): Promise<CompletionResult | null> => {
+        const line = state.doc.lineAt(pos);
+        if (!explicit && line.text.slice(0, pos - line.from).trim() === "") return null;
+        // Only the completions for the last key stroke are wanted.
+        const found = await askAt(where(), state, "completion", pos, {}, { key: "completion" }).catch(() => null);
+        const first = found?.items[0];
+        if (!first) return null;
+        return {
+            from: rangeOf(state.doc, first.textEdit.range).from,
+            options: found.items.map(completionOf),
+            validFor: first.kind === key_kind ? /^[\p{L} ]*$/u : /^[\p{L}\d/#-]*$/u,
+        };
     };
 }
 
-// The help for a column of a line, and the columns that it covers.
-function explain(
-    application: Application,
-    line: string,
-    column: number,
-): { from: number; to: number; dom: HTMLElement } | null {
-    const { help } = application;
-    const name = /^(\s*)([\p{L} ]+?)\s*:/u.exec(line);
-    if (name && !line.includes("-->") && column <= name[0].length) {
-        const key = help.keys.find((each) => each.name === name[2]);
-        return key ? { from: name[1]!.length, to: name[1]!.length + name[2]!.length, dom: keyCard(key) } : null;
-    }
-    const identifiers = [...line.matchAll(/[\p{L}_][\p{L}\d_]*/gu)];
-    const identifier = identifiers.find((each) => each.index <= column && column < each.index + each[0].length);
-    const define = application.opened?.facts.defines.find((each) => each.name === identifier?.[0]);
-    if (identifier && define) {
-        const dom = element(
-            "div",
-            { class: "help-card" },
-            element("strong", {}, `${define.name} = ${define.value}`),
-            element("p", {}, `Defined on line ${define.line}.`),
-        );
-        return { from: identifier.index, to: identifier.index + identifier[0].length, dom };
-    }
-    const hasSymbols = ["production", "word", "other"].includes(kindOf(line));
-    if (!hasSymbols || line.indexOf("-->") === column || line.slice(column - 2, column + 3).includes("-->"))
-        return null;
-    if (name && column < name[0].length) return null;
-    const start = line[column - 1] === "@" ? column - 1 : column;
-    const symbol =
-        line[start] === "@" ? line.slice(start, start + 2) : String.fromCodePoint(line.codePointAt(column) ?? 32);
-    return explainSymbol(application, symbol, start);
-}
-
-function explainSymbol(application: Application, symbol: string, start: number) {
-    const row = application.help.symbols.find(
-        (each) => each.symbol === symbol || each.symbol.split(/[\s,]+/).includes(symbol),
-    );
-    const productions =
-        application.opened?.facts.productions.filter((each) => each.predecessor.startsWith(symbol)) ?? [];
-    if (!row && productions.length === 0) return null;
-    const dom = element("div", { class: "help-card" }, element("strong", { class: "mono" }, symbol));
-    if (row) dom.append(element("p", {}, capital(row.help)));
-    for (const each of productions.slice(0, 4)) {
-        const successor = each.successor.length > 60 ? `${each.successor.slice(0, 60)}…` : each.successor;
-        dom.append(element("p", { class: "mono" }, `${each.predecessor} --> ${successor}  (line ${each.line})`));
-    }
-    return { from: start, to: start + symbol.length, dom };
-}
-
-function tooltipAt(application: Application, view: EditorView, position: number): Tooltip | null {
+async function tooltipAt(application: Application, view: EditorView, position: number): Promise<Tooltip | null> {
     if (!application.help) return null; // the libraries have not started yet
-    const line = view.state.doc.lineAt(position);
-    const found = explain(application, line.text, position - line.from);
-    return (
-        found && {
-            pos: line.from + found.from,
-            end: line.from + found.to,
-            above: true,
-            create: () => ({ dom: found.dom }),
-        }
-    );
+    const { state } = view;
+    const found = await askAt(application, state, "hover", position).catch(() => null);
+    if (!found || view.state.doc !== state.doc) return null;
+    const { from, to } = rangeOf(state.doc, found.range);
+    return { pos: from, end: to, above: true, create: () => ({ dom: card(found.contents.value) }) };
 }
 
-/// Shows help for keys, symbols and defines under the pointer.
+/// Shows help for names under the pointer.
 export function hoverHelp(where: Where): Extension {
     return hoverTooltip((view, position) => tooltipAt(where(), view, position), { hoverTime: 350 });
 }
@@ -144,23 +64,21 @@ const shown_help = StateField.define<Tooltip | null>({
     provide: (field) => showTooltip.from(field),
 });
 
+async function showHelp(application: Application, view: EditorView): Promise<void> {
+    const { head } = view.state.selection.main;
+    const tooltip = await tooltipAt(application, view, head);
+    if (view.state.selection.main.head !== head) return;
+    view.dispatch({ effects: show_help.of(tooltip) });
+    const parts = tooltip?.create(view).dom.querySelectorAll("p") ?? [];
+    application.say([...parts].map((part) => part.textContent).join(" ") || "There is no help for this text.");
+}
+
 /// F1 shows and announces help for the text at the cursor; Escape closes it.
 export function cursorHelp(where: Where): Extension {
     return [
         shown_help,
         keymap.of([
-            {
-                key: "F1",
-                run(view) {
-                    const tooltip = tooltipAt(where(), view, view.state.selection.main.head);
-                    view.dispatch({ effects: show_help.of(tooltip) });
-                    const parts = tooltip?.create(view).dom.querySelectorAll("strong, p, dt, dd") ?? [];
-                    where().say(
-                        [...parts].map((part) => part.textContent).join(" ") || "There is no help for this text.",
-                    );
-                    return true;
-                },
-            },
+            { key: "F1", run: (view) => (void showHelp(where(), view), true) },
             {
                 key: "Escape",
                 run(view) {

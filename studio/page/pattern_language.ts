@@ -11,10 +11,10 @@ const parts = {
     word: Tag.define(),
 };
 
-export type LineKind = "empty" | "key" | "word" | "production" | "define" | "section" | "other";
+type LineKind = "empty" | "key" | "word" | "production" | "define" | "section" | "other";
 
 /// The kind of a line. Values of some keys are words of symbols, coloured like productions.
-export function kindOf(line: string): LineKind {
+function kindOf(line: string): LineKind {
     if (/^\s*(\/\/|$)/.test(line)) return "empty";
     if (line.includes("-->")) return "production";
     if (/^\s*define\s/.test(line)) return "define";

@@ -28,6 +28,8 @@ export type Request =
     | { do: "measure"; pattern: PatternRequest }
     | { do: "kolam"; pattern: PatternRequest }
     | { do: "check"; pattern: PatternRequest }
+    /// A request of the language server protocol about a text: the answer of `sikku lsp`, as `result`.
+    | { do: "editor"; method: string; parameters: EditorParameters }
     /// The largest derivation length that is drawn quickly, at most one less than the pattern's: see Affordable.
     | { do: "affordable"; seconds: number; pattern: PatternRequest }
     /// Of a pattern, or of an arrangement, whose patterns are bundled or in its text.
@@ -60,6 +62,26 @@ export type Request =
     /// link; without it, the pattern's name.
     | { do: "command"; interpreter: "draw" | "play"; format: string; options?: Options; pattern: PatternRequest;
         source?: string };
+
+/// A position in a text: lines from 0, UTF-16 code units from 0.
+export interface TextPlace { line: number; character: number }
+export interface TextRange { start: TextPlace; end: TextPlace }
+export interface TextEdit { range: TextRange; newText: string }
+export interface Markdown { kind: "markdown"; value: string }
+export interface EditorParameters {
+    textDocument: { uri: string; text: string }; // uri: of the pattern file, or its name
+    position?: TextPlace;
+    newName?: string;
+}
+export interface CompletionItem { label: string; kind: number; textEdit: TextEdit; detail?: string; documentation?: Markdown }
+/// The results of `textDocument/hover` and others.
+export interface EditorMethods {
+    hover: { contents: Markdown; range: TextRange } | null;
+    completion: { isIncomplete: boolean; items: CompletionItem[] };
+    definition: { uri: string; range: TextRange }[] | null;
+    prepareRename: { range: TextRange; placeholder: string };
+    rename: { changes: Record<string, TextEdit[]> }; // by uri
+}
 
 export interface Shared {
     pattern: PatternRequest;

@@ -64,6 +64,8 @@ function shortcutsOf(application: Application): Shortcut[] {
         },
         { keys: "Ctrl+Space", label: "Complete a key (in the text)" },
         { keys: "F1", label: "Explain the key or symbol at the cursor (in the text)" },
+        { keys: "F12", label: "Go to the definition of the name at the cursor (in the text)" },
+        { keys: "F2", label: "Rename the name at the cursor everywhere (in the text)" },
         { keys: "F8", label: "Next error (in the text)" },
         { keys: "Ctrl+F", label: "Search (in the text)" },
         { keys: "?", label: "Show this list", act: () => openShortcuts(shortcutsOf(application)) },

@@ -185,6 +185,44 @@ test("keys are completed and explained", async ({ page }) => {
     await page.mouse.move(900, 400);
 });
 
+test("names lead to their definitions and are renamed everywhere", async () => {
+    const page = await openStudio();
+    await setText(
+        page,
+        "title: Names\nderivation length: 3\ndefine k = 2\naxiom: X(k)\nX(i) --> F+X(i+k)\nvariant v: k = 3\n",
+    );
+    await page.locator("#work-title", { hasText: "Names" }).waitFor();
+    await page.locator("#facts", { hasText: "No errors" }).waitFor();
+    const value = page.getByRole("textbox", { name: "k, value" });
+    await value.fill("5");
+    await value.press("Enter");
+    await text(page).click();
+    await page.keyboard.press(`${ctrl}+Home`);
+    for (let line = 1; line < 4; ++line) await page.keyboard.press("ArrowDown");
+    await page.keyboard.press("End");
+    await page.keyboard.press("ArrowLeft");
+    await page.keyboard.press("F12");
+    await page.locator(".cm-activeLine", { hasText: "define k = 2" }).waitFor();
+    await page.keyboard.press("F2");
+    const name = page.getByRole("textbox", { name: "New name of k" });
+    await name.fill("X(");
+    await name.press("Enter");
+    await page.locator("#message", { hasText: "X(" }).waitFor();
+    await page.keyboard.press("F2");
+    await name.fill("size");
+    await name.press("Enter");
+    await page.locator(".cm-line", { hasText: "define size = 2" }).waitFor();
+    const renamed = await textOf(page);
+    for (const line of ["axiom: X(size)", "X(i) --> F+X(i+size)", "variant v: size = 3"]) assert.ok(renamed.includes(line), renamed);
+    await page.locator("#facts", { hasText: "No errors" }).waitFor();
+    assert.equal(await page.getByRole("textbox", { name: "size, value" }).inputValue(), "5");
+    await text(page).click();
+    await page.keyboard.press(`${ctrl}+z`);
+    await page.locator(".cm-line", { hasText: "define k = 2" }).waitFor();
+    assert.deepEqual(page.problems, []);
+    await page.context().close();
+});
+
 test("sliders change values, and a double click resets them", async ({ page }) => {
     const n = slider(page, "n");
     assert.match(await cost(page), /63 segments/);

@@ -12,7 +12,8 @@ cd "$(dirname "$0")/../.."
 seconds=${FUZZ_SECONDS:-60}
 
 targets=(pattern_fuzz derivation_fuzz import_fuzz surface_fuzz scl_fuzz kbm_fuzz gallery_toml_fuzz gallery_jsonl_fuzz show_fuzz
-    midi_fuzz icc_fuzz font_fuzz link_fuzz grid_fuzz reading_fuzz svg_fuzz photograph_fuzz)
+    midi_fuzz icc_fuzz font_fuzz link_fuzz grid_fuzz reading_fuzz svg_fuzz photograph_fuzz
+    server_fuzz)
 # One target for $seconds. What it finds is written to build/fuzz/; mend it and add the file to tests/corpus.
 fuzz() {
     local target=$1 corpus=build/fuzz/corpus-$1 timeout=10 seeds
@@ -29,6 +30,8 @@ fuzz() {
         photograph_fuzz) seeds=(tests/corpus/pictures) timeout=60 ;; # of a kolam, 4 s with sanitizers
         surface_fuzz) seeds=(tests/corpus/surfaces) ;;
         scl_fuzz | kbm_fuzz) seeds=(tests/corpus/scales) ;;
+        server_fuzz) # a check takes up to 2 s, a measurement 0.5 s
+            seeds=(-dict=tests/fuzz/words.dict tests/corpus/server tests/corpus/good tests/corpus/bad patterns/*/) timeout=30 ;;
         gallery_*) seeds=(tests/corpus/gallery patterns/posters) ;;
         *) seeds=(-dict=tests/fuzz/words.dict tests/corpus/good tests/corpus/bad tests/corpus/import patterns/*/) ;;
     esac

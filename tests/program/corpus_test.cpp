@@ -7,6 +7,7 @@
 #include "tests/fuzz/link_targets.h"
 #include "tests/fuzz/reading_targets.h"
 #include "tests/fuzz/scale_targets.h"
+#include "tests/fuzz/server_targets.h"
 #include "tests/fuzz/surface_targets.h"
 #include "tests/fuzz/svg_targets.h"
 #include "tests/fuzz/targets.h"
@@ -169,6 +170,15 @@ TEST(Corpus, SurfaceFilesAreReadOrRefused) {
         EXPECT_NO_THROW(try_surface(contents(file)));
         mutate(
             contents(file), [&](const std::string& changed) { EXPECT_NO_THROW(try_surface(changed)); }, 2000);
+    }
+}
+
+TEST(Corpus, TheLanguageServerAnswersEveryMessage) {
+    for (const auto& file : files_of("tests/corpus/server")) {
+        SCOPED_TRACE(file.string());
+        constexpr std::size_t places = 20;
+        mutate(
+            contents(file), [](const std::string& changed) { ASSERT_NO_THROW(try_server(changed)); }, places);
     }
 }
 

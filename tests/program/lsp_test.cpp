@@ -350,11 +350,20 @@ TEST(Lsp, RefusesWhatIsNotAMessage) {
     EXPECT_EQ(converse(std::string(100'000, 'x')).outcome.status, 1);
 }
 
+/// What the user is told, in notifications.
+std::vector<std::string> told(const Conversation& talk) {
+    std::vector<std::string> messages;
+    for (const Json& each : talk.messages) {
+        if (each.value("method", "") == "window/showMessage") messages.push_back(each["params"]["message"]);
+    }
+    return messages;
+}
+
 TEST(Lsp, SaysThatADocumentIsTooLarge) {
     std::string huge = "axiom: F\n";
     while (huge.size() < (std::size_t{64} << 20U)) huge += std::string(1023, 'F') + "\n";
     const Conversation talk =
-        converse(start + opened(huge) + request(1, "textDocument/hover", place(0, 0)) +
+        converse(start + opened(huge) + request(1, "textDocument/rename", place(0, 0)) +
                  request(2, "textDocument/formatting", document()) + changed("axim: F\n") + end);
     EXPECT_EQ(talk.error(1), -32803);
     EXPECT_EQ(talk.error(2), -32803);
@@ -366,7 +375,48 @@ TEST(Lsp, SaysThatADocumentIsTooLarge) {
     }
     const Conversation only = converse(start + opened(huge) + end);
     ASSERT_EQ(only.diagnostics(address).size(), 1u);
-    EXPECT_TRUE(has(only.diagnostics(address)[0]["message"].get<std::string>(), "too large for an editor"));
+    const std::string message = only.diagnostics(address)[0]["message"];
+    EXPECT_TRUE(has(message, "64 MB is too large for an editor and is not read; the limits are 4 MB")) << message;
+    EXPECT_EQ(told(only), std::vector<std::string>{"/tmp/test.lsys: " + message});
+}
+
+/// Requests that editors send by themselves have no answer, which nobody needs to see. The user is told once.
+TEST(Lsp, IsSilentAboutDocumentsThatAreTooLarge) {
+    const std::size_t limit = std::size_t{4} << 20U;
+    std::string text = "axiom: F\n";
+    text += "//" + std::string(limit - text.size() - 3, 'x') + "\n";
+    ASSERT_EQ(text.size(), limit);
+    std::string input = start + opened(text + "\n");
+    int id = 0;
+    for (const char* method : {"hover", "completion", "definition", "codeLens", "semanticTokens/full"}) {
+        input += request(++id, std::string("textDocument/") + method, place(0, 0));
+    }
+    input += changed(text + "//") + request(10, "textDocument/documentColor", place(0, 0));
+    const Conversation large = converse(input + end);
+    for (int each = 1; each <= id; ++each) {
+        EXPECT_TRUE(large.answer(each).contains("result") && large.result(each).is_null()) << large.answer(each);
+    }
+    EXPECT_EQ(large.result(10), Json::array());
+    EXPECT_EQ(told(large).size(), 1u);
+    const Conversation again = converse(input + changed(text) + request(11, "textDocument/hover", place(0, 0)) +
+                                        changed(text + "\n") + request(12, "shutdown") + notice("exit"));
+    EXPECT_FALSE(again.result(11).is_null()) << "a document of 4 MB is read";
+    EXPECT_EQ(told(again).size(), 2u) << "it was too large twice";
+}
+
+/// The seventeenth document of 4 MB is over the limit of all; when another was closed, its next change is read.
+TEST(Lsp, LimitsOpenDocumentsTogether) {
+    const std::string text = "axim: F\n//" + std::string((std::size_t{4} << 20U) - 20, 'x') + "\n";
+    std::string input = start;
+    const auto name = [](int i) { return "file:///tmp/" + std::to_string(i); };
+    for (int i = 0; i < 17; ++i) input += opened(text, name(i));
+    const Conversation full = converse(input + end);
+    EXPECT_EQ(full.diagnostics(name(15)).size(), 2u);
+    ASSERT_EQ(full.diagnostics(name(16)).size(), 1u);
+    EXPECT_EQ(told(full).size(), 1u);
+    const Conversation freed =
+        converse(input + notice("textDocument/didClose", document(name(3))) + changed(text, name(16)) + end);
+    EXPECT_EQ(freed.diagnostics(name(16)).size(), 2u);
 }
 
 /// The server stops reading documents below the limit that take too long.

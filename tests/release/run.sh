@@ -17,6 +17,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$(dirname "$second")" "$work"' EXIT
 packaging/release.sh "$first" > build/release-1.log || { tail -n 40 build/release-1.log; exit 1; }
 for test in packages portable wheel npm desktop; do tests/release/$test.sh "$first"; done
+tests/release/vscode.sh "$first" build/dist/bin/sikku
 
 # An sdist builds without the checkout.
 /usr/bin/python3 -m venv --system-site-packages "$work/venv"

@@ -72,6 +72,24 @@ TEST(Bridge, ReportsEveryKindOfFailure) {
     EXPECT_EQ(kind_of_failure(question), "stopped");
 }
 
+TEST(Bridge, AnswersEditors) {
+    const Json text = {{"uri", "test.lsys"}, {"text", "axiom: 𝄞X\nX --> F𝄞X\n"}};
+    const auto ask = [&](const char* method, const Json& place, const char* name = "Q") {
+        return asked({{"do", "editor"},
+                      {"method", std::string("textDocument/") + method},
+                      {"parameters", {{"textDocument", text}, {"position", place}, {"newName", name}}}});
+    };
+    const Json place = {{"line", 0}, {"character", 9}};
+    const std::string help = ask("hover", place)["result"]["contents"]["value"];
+    EXPECT_NE(help.find("`X --> F𝄞X` (line 2)"), std::string::npos) << help;
+    EXPECT_EQ(ask("definition", place)["result"][0]["range"]["start"]["line"], 1);
+    EXPECT_EQ(ask("rename", place)["result"]["changes"]["test.lsys"].size(), 3u);
+    EXPECT_EQ(ask("rename", place, "F")["error"]["kind"], "other");
+    EXPECT_TRUE(ask("hover", {{"line", 7}, {"character", 0}})["result"].is_null());
+    EXPECT_EQ(ask("fly", place)["error"]["kind"], "request");
+    EXPECT_EQ(ask("hover", {{"line", 0}})["error"]["kind"], "request");
+}
+
 TEST(Bridge, PlacesOfErrorsCountCodePoints) {
     const Json answer = asked({{"do", "open"}, {"pattern", pattern("axiom: éF(\n")}});
     const Json& first = answer["error"]["diagnostics"][0];
