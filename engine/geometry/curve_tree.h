@@ -22,7 +22,7 @@ namespace sikku {
 /// Cost: O(n), and O(n log n) for points that are far denser in some places than in others. Source: Morton, A
 /// computer oriented geodetic data base, 1966.
 inline std::vector<std::uint32_t> order_along_curve(std::span<const glm::dvec2> points, const Monitor& monitor = {}) {
-    struct Key {
+    struct CurveKey {
         std::uint32_t high, low, index;
     };
     Box box;
@@ -39,7 +39,7 @@ inline std::vector<std::uint32_t> order_along_curve(std::span<const glm::dvec2> 
     const auto bits = [&](double offset) {
         return spread(static_cast<std::uint64_t>(offset * scale < 4294967295.0 ? offset * scale : 4294967295.0));
     };
-    std::vector<Key> keys, sorted(points.size());
+    std::vector<CurveKey> keys, sorted(points.size());
     keys.reserve(points.size());
     for (std::uint32_t i = 0; i < points.size(); ++i) {
         const std::uint64_t code = bits(points[i].x - box.low.x) | bits(points[i].y - box.low.y) << 1;
@@ -49,11 +49,11 @@ inline std::vector<std::uint32_t> order_along_curve(std::span<const glm::dvec2> 
     for (int shift = 0; shift < 32; shift += digit) {
         monitor.check();
         std::array<std::uint32_t, std::size_t{1} << digit> begins{};
-        const auto bucket = [&](const Key& key) { return key.high >> shift & (begins.size() - 1); };
-        for (const Key& key : keys) ++begins[bucket(key)];
+        const auto bucket = [&](const CurveKey& key) { return key.high >> shift & (begins.size() - 1); };
+        for (const CurveKey& key : keys) ++begins[bucket(key)];
         std::uint32_t sum = 0;
         for (std::uint32_t& begin : begins) sum += std::exchange(begin, sum);
-        for (const Key& key : keys) sorted[begins[bucket(key)]++] = key;
+        for (const CurveKey& key : keys) sorted[begins[bucket(key)]++] = key;
         keys.swap(sorted);
     }
     constexpr std::size_t few = 8;  // whose order does not matter
@@ -62,7 +62,7 @@ inline std::vector<std::uint32_t> order_along_curve(std::span<const glm::dvec2> 
         while (end < keys.size() && keys[end].high == keys[begin].high) ++end;
         if (end - begin > few) {
             const auto at = [&](std::size_t i) { return keys.begin() + static_cast<std::ptrdiff_t>(i); };
-            std::sort(at(begin), at(end), stoppable(monitor, [](const Key& a, const Key& b) {
+            std::sort(at(begin), at(end), stoppable(monitor, [](const CurveKey& a, const CurveKey& b) {
                           return a.low != b.low ? a.low < b.low : a.index < b.index;
                       }));
         }
@@ -70,7 +70,7 @@ inline std::vector<std::uint32_t> order_along_curve(std::span<const glm::dvec2> 
     }
     std::vector<std::uint32_t> order;
     order.reserve(keys.size());
-    for (const Key& key : keys) order.push_back(key.index);
+    for (const CurveKey& key : keys) order.push_back(key.index);
     return order;
 }
 
