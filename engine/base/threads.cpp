@@ -7,7 +7,6 @@
 #include <oneapi/tbb/parallel_invoke.h>
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
-#include <oneapi/tbb/task_group.h>
 
 #include <algorithm>
 #include <atomic>
@@ -88,60 +87,6 @@ void in_order(std::size_t count, std::size_t places, const std::function<void(st
         idle.push(item.place);
     });
     tbb::parallel_pipeline(places, begin & make & hand_on);
-}
-
-void hand_over_in_order(std::size_t places, const std::function<bool(std::size_t)>& prepare,
-                        const std::function<void(std::size_t)>& work,
-                        const std::function<void(std::size_t)>& deliver) {
-    enum State : int { idle, ready, taken, done };
-    std::vector<std::atomic<int>> states(places);
-    for (std::atomic<int>& state : states) state = idle;
-    const auto try_to_work = [&](std::size_t place) {
-        int expected = ready;
-        if (!states[place].compare_exchange_strong(expected, taken)) return false;
-        work(place);
-        states[place] = done;
-        states[place].notify_all();
-        return true;
-    };
-    // While it waits, this thread takes up only this work, and no other work of the program.
-    tbb::this_task_arena::isolate([&] {
-        tbb::task_group group;
-        std::size_t prepared = 0;
-        std::size_t delivered = 0;
-        bool is_more = true;
-        try {
-            while (true) {
-                while (is_more && prepared - delivered < places) {
-                    const std::size_t place = prepared % places;
-                    is_more = prepare(place);
-                    if (!is_more) break;
-                    states[place] = ready;
-                    group.run([&try_to_work, place] { try_to_work(place); });
-                    ++prepared;
-                }
-                if (delivered == prepared) break;
-                const std::size_t place = delivered % places;
-                if (!try_to_work(place)) {
-                    for (std::size_t i = delivered + 1; i < prepared && states[place] != done; ++i) {
-                        try_to_work(i % places);
-                    }
-                    for (int state = states[place]; state != done; state = states[place]) states[place].wait(state);
-                }
-                deliver(place);
-                states[place] = idle;
-                ++delivered;
-            }
-        } catch (...) {
-            for (std::atomic<int>& state : states) {
-                int expected = ready;
-                state.compare_exchange_strong(expected, idle);
-            }
-            group.wait();
-            throw;
-        }
-        group.wait();
-    });
 }
 
 }  // namespace sikku

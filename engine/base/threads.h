@@ -32,11 +32,4 @@ void run_both(const std::function<void()>& first, const std::function<void()>& s
 void in_order(std::size_t count, std::size_t places, const std::function<void(std::size_t, std::size_t)>& work,
               const std::function<void(std::size_t, std::size_t)>& deliver);
 
-/// Calls `prepare(place)` until it returns false, `work(place)` after each in parallel, and then `deliver(place)` in
-/// the same order. Only `work`, which must not throw, is called by other threads. Places are numbers below `places`,
-/// each in use from `prepare` to `deliver`. Exceptions end the work and are passed on.
-void hand_over_in_order(std::size_t places, const std::function<bool(std::size_t)>& prepare,
-                        const std::function<void(std::size_t)>& work,
-                        const std::function<void(std::size_t)>& deliver);
-
 }  // namespace sikku

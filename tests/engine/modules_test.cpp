@@ -1,8 +1,4 @@
 // Parameters, chance, cuts and contexts with brackets: against a second algorithm, and as they are published.
-#include "engine/base/bits.h"
-#include "engine/base/chance.h"
-#include "engine/base/monitor.h"
-#include "engine/base/threads.h"
 #include "engine/derivation/forecast.h"
 #include "engine/measure/extent.h"
 #include "tests/checks.h"
@@ -11,13 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
 #include <chrono>
-#include <limits>
-#include <set>
 #include <string>
-#include <thread>
 
 namespace sikku::modules_test {
 
@@ -579,99 +571,6 @@ TEST(ModuleLimits, LongWordsAreHandedOverInRuns) {
                                   "\nF(x) : x > 3 --> F(x)\nC(x) : x > 3 --> F(x)\n"),
                   word + "F(3)");
     }
-}
-
-// --- long words, derived by several threads
-// -------------------------------------------------------------------------
-
-/// Counts and mixes the symbols and arguments of a word.
-class Digest : public SymbolSink {
-public:
-    void symbols(const Run& run) override {
-        EXPECT_EQ(std::this_thread::get_id(), thread_);
-        for (const Symbol symbol : run.symbols) add(symbol);
-        for (const double argument : run.arguments)
-            arguments_ = scrambled(arguments_ ^ bit_cast<std::uint64_t>(argument));
-    }
-    void add(const ModuleWord& word) { symbols({word.symbols, -1, word.arguments}); }
-    bool operator==(const Digest& other) const {
-        return count == other.count && symbols_ == other.symbols_ && arguments_ == other.arguments_;
-    }
-    std::uint64_t count = 0;
-
-private:
-    void add(Symbol symbol) {
-        ++count;
-        symbols_ = scrambled(symbols_ ^ symbol);
-    }
-    std::uint64_t symbols_ = 1, arguments_ = 1;
-    std::thread::id thread_ = std::this_thread::get_id();
-};
-
-// Prusinkiewicz & Hanan 1989, figure 3.16; Prusinkiewicz, Hammel, Hanan & Mech 1996, equation 11.
-const std::string specimen = "axiom: F\nF --> F[+F]F[-F]F : 0.33\nF --> F[+F]F : 0.33\nF --> F[-F]F : 0.34\n";
-const std::string honda =
-    "axiom: A(100,30)\nA(s,w) : s >= 0 --> !(w)F(s)[+(35)/(0)A(s*.75,w*.5^.4)][+(-35)/(0)A(s*.77,w*.5^.4)]\n";
-
-TEST(ModuleThreads, MakeTheWordThatRewritingMakes) {
-    const std::string lopsided =  // parts of very different size, some of which vanish
-        "axiom: FA(24)FB(9)B(1)G\nA(x) : x > 0 --> FA(x-1)B(x)\nB(x) : x >= 1 --> B(x-1)FB(x-1) : 9\n"
-        "B(x) : x >= 1 --> F : 1\nB(x) : x < 1 --> C(random(0,1)) : 1\nC(x) : x < 0.5 -->\n";
-    for (const std::string& text :
-         {"derivation length: 11\n" + specimen, "seed: 5\nderivation length: 11\n" + specimen,
-          "derivation length: 18\n" + honda, "derivation length: 52\n" + lopsided}) {
-        const Grammar grammar = grammar_of(text);
-        Digest rewritten;
-        ModuleWord word = grammar.axiom_modules();
-        for (std::int64_t step = 1; step <= grammar.steps(); ++step) {
-            word = rewrite(grammar, grammar.tables()[0], word, step);
-        }
-        rewritten.add(word);
-        EXPECT_GT(rewritten.count, 2'100'000u) << text;
-        for (const int threads : {1, 2, 5}) {
-            on_threads(threads, [&] {
-                Digest streamed;
-                derive(grammar, streamed);
-                EXPECT_EQ(streamed.count, rewritten.count) << text;
-                EXPECT_TRUE(streamed == rewritten) << threads << " threads\n" << text;
-            });
-        }
-    }
-}
-
-TEST(ModuleThreads, TellTheSameMistakes) {
-    // The weights are 0 at one place, far behind that where the word is divided.
-    const Grammar grammar =
-        grammar_of("derivation length: 22\naxiom: A(0)\nA(x) --> A(2*x)A(2*x+1) : x != 2000001\nA(x) --> B : 0\n");
-    const Grammar endless = grammar_of("derivation length: 40\n" + specimen);
-    std::set<std::string> messages;
-    for (const int threads : {1, 2, 5}) {
-        on_threads(threads, [&] {
-            Digest digest;
-            messages.insert(error_of<WordError>([&] { derive(grammar, digest); }));
-            DerivationOptions options;
-            options.most_nodes = 3e6;
-            Digest limited;
-            messages.insert(error_of<BudgetError>([&] { derive(endless, limited, options); }));
-            EXPECT_LT(limited.count, 3'000'000u);
-            // A reader that stops.
-            std::uint64_t seen = 0;
-            options.most_nodes = std::numeric_limits<double>::infinity();
-            options.watch = [&](std::uint64_t symbols) {
-                seen += symbols;
-                if (seen > 5'000'000) throw Stopped();
-            };
-            Digest stopped;
-            EXPECT_THROW(derive(endless, stopped, options), Stopped);
-            EXPECT_LT(stopped.count, 5'010'000u);
-        });
-    }
-    EXPECT_EQ(messages.size(), 2u);
-    EXPECT_TRUE(std::any_of(messages.begin(), messages.end(),
-                            [](const std::string& message) {
-                                return message.find("what becomes symbol 4000003 of the word") != std::string::npos;
-                            }))
-        << *messages.begin() << *messages.rbegin();
 }
 
 // --- turtles -------------------------------------------------------------------------------------------------------
