@@ -25,17 +25,22 @@ constexpr std::size_t end_of_block = 256;
 constexpr std::uint32_t match_mark = 0x8000'0000;
 constexpr unsigned longest_code = 15, longest_length_code = 7;
 
-struct Effort {
+struct MatchEffort {
     int tries;
     std::size_t good_length;
     bool is_lazy;
     bool remembers_all;
 };
 /// By level, 1 to 9.
-constexpr std::array<Effort, 9> efforts = {
-    Effort{1, 16, false, false}, {2, 24, false, false},  {4, 32, false, false},
-    {4, 32, true, false},        {8, 48, true, false},   {16, 96, true, false},
-    {48, 258, true, false},      {160, 258, true, true}, {1000, 258, true, true}};
+constexpr std::array<MatchEffort, 9> efforts = {MatchEffort{1, 16, false, false},
+                                                {2, 24, false, false},
+                                                {4, 32, false, false},
+                                                {4, 32, true, false},
+                                                {8, 48, true, false},
+                                                {16, 96, true, false},
+                                                {48, 258, true, false},
+                                                {160, 258, true, true},
+                                                {1000, 258, true, true}};
 
 std::uint32_t four_bytes(const char* bytes) {
     const auto at = [bytes](int i) { return std::uint32_t{static_cast<unsigned char>(bytes[i])}; };
@@ -342,7 +347,7 @@ struct RowDeflater::Places {
 
 // Places are not initialised: new pages cost more time than compressing a small picture.
 RowDeflater::RowDeflater(int level, std::size_t pixel_bytes) : pixel_bytes_(pixel_bytes), places_(new Places) {
-    const Effort& effort = efforts[static_cast<std::size_t>(std::clamp(level, 1, 9) - 1)];
+    const MatchEffort& effort = efforts[static_cast<std::size_t>(std::clamp(level, 1, 9) - 1)];
     tries_ = effort.tries;
     good_length_ = effort.good_length;
     is_lazy_ = effort.is_lazy;

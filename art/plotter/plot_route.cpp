@@ -19,6 +19,10 @@ namespace sikku {
 namespace {
 
 constexpr std::uint32_t no_end = CurveTree::none;
+constexpr std::size_t most_near = 6;
+constexpr std::size_t most_near_closed = 10;  // each point twice
+constexpr std::size_t few = 1000;             // strokes whose order is searched for longer
+constexpr int most_rounds = 8;
 
 /// For each of many points, the points nearest to it, the nearest first, and then `no_end`.
 class NearLists {
@@ -83,7 +87,7 @@ public:
         if (size <= longest_part) {
             Part whole(0, 0, size, size);
             settle_all(near, whole, monitor);
-            if (size <= longest_shaken) shake(near, whole, monitor);
+            if (size <= few) shake(near, whole, monitor);
             return;
         }
         for (const std::size_t first : {longest_part, longest_part / 2}) {
@@ -103,7 +107,6 @@ public:
 
 private:
     static constexpr std::size_t longest_part = 50'000;
-    static constexpr std::size_t longest_shaken = 1000;
     static constexpr std::uint32_t most_moved = 3;
     static constexpr std::uint64_t most_work = 5000;  // for each stroke
 
@@ -394,8 +397,24 @@ struct Walk {
     NearLists near;  // of these points, and of the start
 };
 
-constexpr std::size_t most_near = 6;
-constexpr std::size_t most_near_closed = 10;  // each point twice
+NearLists near_ends(const std::vector<glm::dvec2>& points, const Monitor& monitor) {
+    const CurveTree tree(
+        points, [](std::uint32_t end) { return end / 2; }, [](std::uint32_t end) { return end; }, monitor);
+    return find_near<most_near_closed>(tree, monitor);
+}
+
+/// The list of the start, which is the last one.
+void add_start(NearLists& near, const std::vector<glm::dvec2>& points, glm::dvec2 start) {
+    std::vector<std::pair<double, PlotEnd>> nearest;
+    for (PlotEnd end = 0; end < points.size(); ++end) {
+        const std::pair<double, PlotEnd> one(glm::distance(start, points[end]), end);
+        if (nearest.size() == most_near && !(one < nearest.back())) continue;
+        nearest.insert(std::upper_bound(nearest.begin(), nearest.end(), one), one);
+        if (nearest.size() > most_near) nearest.pop_back();
+    }
+    const auto out = near.of(static_cast<PlotEnd>(points.size()));
+    for (std::size_t k = 0; k < nearest.size(); ++k) out[k] = nearest[k].second;
+}
 
 Walk walk_to_nearest(const PlotGraph& graph, const PlotStrokes& given, glm::dvec2 start, const Monitor& monitor) {
     Walk walk;
@@ -426,20 +445,39 @@ Walk walk_to_nearest(const PlotGraph& graph, const PlotStrokes& given, glm::dvec
             walk.points[enter ^ 1U] = entries.points[leave];
             end = enter;
         }
-        const CurveTree tree(
-            walk.points, [](std::uint32_t end) { return end / 2; }, [](std::uint32_t end) { return end; }, monitor);
-        walk.near = find_near<most_near_closed>(tree, monitor);
+        walk.near = near_ends(walk.points, monitor);
     }
-    std::vector<std::pair<double, PlotEnd>> nearest;
-    for (PlotEnd end = 0; end < walk.points.size(); ++end) {
-        const std::pair<double, PlotEnd> one(glm::distance(start, walk.points[end]), end);
-        if (nearest.size() == most_near && !(one < nearest.back())) continue;
-        nearest.insert(std::upper_bound(nearest.begin(), nearest.end(), one), one);
-        if (nearest.size() > most_near) nearest.pop_back();
-    }
-    const auto out = walk.near.of(static_cast<PlotEnd>(walk.points.size()));
-    for (std::size_t k = 0; k < nearest.size(); ++k) out[k] = nearest[k].second;
+    add_start(walk.near, walk.points, start);
     return walk;
+}
+
+/// Lets each closed stroke begin where the detour between its neighbours in the order is least.
+void choose_beginnings(const PlotGraph& graph, const PlotStrokes& given, const std::vector<PlotEnd>& order,
+                       glm::dvec2 start, Walk& walk, const Monitor& monitor) {
+    if (walk.begin.empty()) return;
+    Pulse pulse(monitor);
+    for (std::size_t at = 0; at < order.size(); ++at) {
+        const PlotEnd enter = order[at];
+        const PlotStroke& stroke = given.strokes[walk.number[enter / 2]];
+        if (!stroke.closed) continue;
+        const auto in_order = given.ends(stroke);
+        const glm::dvec2 from = at == 0 ? start : walk.points[order[at - 1] ^ 1U];
+        const auto detour = [&](std::uint32_t k) {
+            const glm::dvec2 way = graph.point(in_order[k]);
+            const bool is_last = at + 1 == order.size();
+            return glm::distance(from, way) + (is_last ? 0.0 : glm::distance(way, walk.points[order[at + 1]]));
+        };
+        std::uint32_t& best = walk.begin[enter / 2];
+        double least = detour(best);
+        for (std::uint32_t k = 0; k < stroke.count; ++k) {
+            pulse();
+            if (const double length = detour(k); length < least) {
+                least = length;
+                best = k;
+            }
+        }
+        walk.points[enter] = walk.points[enter ^ 1U] = graph.point(in_order[best]);
+    }
 }
 
 }  // namespace
@@ -448,15 +486,29 @@ PlotStrokes sort_strokes(const PlotGraph& graph, const PlotStrokes& given, glm::
                          const Monitor& monitor) {
     const std::vector<PlotStroke>& strokes = given.strokes;
     Walk walk = walk_to_nearest(graph, given, start, monitor);
-    std::vector<glm::dvec2>& points = walk.points;
-    PlotRoute best(points, std::move(walk.order), start);
+    PlotRoute best(walk.points, std::move(walk.order), start);
     best.improve(walk.near, monitor);
-    if (best.length() > drawn) {
+    if (best.length() > drawn || strokes.size() <= few) {
         std::vector<PlotEnd> order(strokes.size());
         for (std::uint32_t i = 0; i < order.size(); ++i) order[walk.number[i]] = 2 * i;
-        PlotRoute other(points, std::move(order), start);
+        PlotRoute other(walk.points, std::move(order), start);
         other.improve(walk.near, monitor);
         if (other.length() < best.length()) best = std::move(other);
+    }
+    choose_beginnings(graph, given, best.order(), start, walk, monitor);
+    // Other beginnings may make another order shorter, and the reverse.
+    for (int round = 0; round < most_rounds && !walk.begin.empty() && strokes.size() <= few; ++round) {
+        Walk next = walk;
+        next.near = near_ends(next.points, monitor);
+        add_start(next.near, next.points, start);
+        PlotRoute route(next.points, best.order(), start);
+        const double before = route.length();
+        route.improve(next.near, monitor);
+        choose_beginnings(graph, given, route.order(), start, next, monitor);
+        route = PlotRoute(next.points, route.order(), start);
+        if (!(route.length() < before)) break;
+        best = std::move(route);
+        walk = std::move(next);
     }
 
     PlotStrokes result;
@@ -464,32 +516,15 @@ PlotStrokes sort_strokes(const PlotGraph& graph, const PlotStrokes& given, glm::
     ends.reserve(given.order.size());
     result.strokes.reserve(strokes.size());
     Pulse pulse(monitor);
-    for (std::size_t at = 0; at < strokes.size(); ++at) {
+    for (const PlotEnd enter : best.order()) {
         pulse();
-        const PlotEnd enter = best.order()[at];
         const PlotStroke& stroke = strokes[walk.number[enter / 2]];
         const auto in_order = given.ends(stroke);
         result.strokes.push_back({static_cast<std::uint32_t>(ends.size()), stroke.count, stroke.closed});
         if (stroke.closed) {
-            // Finds a better beginning, now that the next stroke is known.
-            const glm::dvec2 from = at == 0 ? start : points[best.order()[at - 1] ^ 1U];
-            const auto detour = [&](std::uint32_t k) {
-                const glm::dvec2 way = graph.point(in_order[k]);
-                const bool is_last = at + 1 == strokes.size();
-                return glm::distance(from, way) + (is_last ? 0.0 : glm::distance(way, points[best.order()[at + 1]]));
-            };
-            std::uint32_t nearest = walk.begin[enter / 2];
-            double least = detour(nearest);
-            for (std::uint32_t k = 0; k < stroke.count; ++k) {
-                pulse();
-                if (const double length = detour(k); length < least) {
-                    least = length;
-                    nearest = k;
-                }
-            }
-            points[enter] = points[enter ^ 1U] = graph.point(in_order[nearest]);
-            ends.insert(ends.end(), in_order.begin() + nearest, in_order.end());
-            ends.insert(ends.end(), in_order.begin(), in_order.begin() + nearest);
+            const auto begin = in_order.begin() + walk.begin[enter / 2];
+            ends.insert(ends.end(), begin, in_order.end());
+            ends.insert(ends.end(), in_order.begin(), begin);
         } else if (enter % 2 == 0) {
             ends.insert(ends.end(), in_order.begin(), in_order.end());
         } else {

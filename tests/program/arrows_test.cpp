@@ -84,7 +84,7 @@ const std::vector<Room>& rooms() {
         {"art/provenance", "engine/* art/print art/vector", "zlib"},
         {"art/raster", "engine/* art/style art/print", ""},
         {"art/plotter", "engine/* art/style art/print", ""},
-        {"art/space", "engine/* art/style art/print art/raster", ""},
+        {"art/space", "engine/* art/style art/print art/raster", "posix"},
         {"art/relief", "engine/* art/style art/print art/kolam art/plotter art/space", ""},
         {"art/module", "engine/*", "posix"},
         {"art/font", "engine/* art/module", "harfbuzz fribidi fontconfig"},
@@ -161,28 +161,13 @@ std::string library_of(const std::string& name) {
                                                                {"linux", "posix"},
                                                                {"pybind11", "pybind11"},
                                                                {"fontconfig", "fontconfig"}};
-    static const std::map<std::string, std::string> files = {{"zlib.h", "zlib"},
-                                                             {"lcms2.h", "lcms"},
-                                                             {"fcntl.h", "posix"},
-                                                             {"unistd.h", "posix"},
-                                                             {"dlfcn.h", "posix"},
-                                                             {"pugixml.hpp", "pugixml"},
-                                                             {"link.h", "posix"},
-                                                             {"signal.h", "posix"},
-                                                             {"spawn.h", "posix"},
-                                                             {"sched.h", "posix"},
-                                                             {"poll.h", "posix"},
-                                                             {"termios.h", "posix"},
-                                                             {"immintrin.h", ""},
-                                                             {"emmintrin.h", ""},
-                                                             {"lcms2_plugin.h", "lcms"},
-                                                             {"netdb.h", "posix"},
-                                                             {"dirent.h", "posix"},
-                                                             {"pthread.h", "posix"},
-                                                             {"emscripten.h", "emscripten"},
-                                                             {"hb.h", "harfbuzz"},
-                                                             {"hb-ot.h", "harfbuzz"},
-                                                             {"fribidi.h", "fribidi"}};
+    static const std::map<std::string, std::string> files = {
+        {"zlib.h", "zlib"},     {"lcms2.h", "lcms"},        {"fcntl.h", "posix"},    {"unistd.h", "posix"},
+        {"dlfcn.h", "posix"},   {"pugixml.hpp", "pugixml"}, {"link.h", "posix"},     {"signal.h", "posix"},
+        {"spawn.h", "posix"},   {"sched.h", "posix"},       {"poll.h", "posix"},     {"malloc.h", "posix"},
+        {"termios.h", "posix"}, {"immintrin.h", ""},        {"emmintrin.h", ""},     {"lcms2_plugin.h", "lcms"},
+        {"netdb.h", "posix"},   {"dirent.h", "posix"},      {"pthread.h", "posix"},  {"emscripten.h", "emscripten"},
+        {"hb.h", "harfbuzz"},   {"hb-ot.h", "harfbuzz"},    {"fribidi.h", "fribidi"}};
     if (const auto file = files.find(name); file != files.end()) return file->second;
     const std::size_t slash = name.find('/');
     if (slash == std::string::npos) return name.find('.') == std::string::npos ? "" : name;
