@@ -19,6 +19,12 @@ namespace {
 /// from the beginning.
 constexpr int most_picture_threads = 3;
 
+/// The reason for a failure; never empty.
+std::string problem_of(const std::exception& error) {
+    if (dynamic_cast<const std::bad_alloc*>(&error)) return "there is not enough memory for this";
+    return *error.what() ? error.what() : "unknown error";
+}
+
 }  // namespace
 
 std::string too_much_memory(const JobForecast& forecast, double memory) {
@@ -121,10 +127,8 @@ void Batch::make(const Turn& turn) {
         if (!other) made = make_job(turn);
     } catch (const Stopped&) {
         is_begun = true;
-    } catch (const std::bad_alloc&) {
-        problem = "there is not enough memory for this";
     } catch (const std::exception& error) {
-        problem = *error.what() ? error.what() : "unknown error";
+        problem = problem_of(error);
     }
     {
         const std::lock_guard guard(mutex_);
@@ -135,8 +139,15 @@ void Batch::make(const Turn& turn) {
         if (!problem.empty()) fail(turn.task.job, std::move(problem));
     }
     if (!made) return record_.release(job.file());
-    publisher_->add(std::move(*made),
-                    [this, turn](FinishedJob file, std::string why) { take(turn, std::move(file), std::move(why)); });
+    try {
+        publisher_->add(std::move(*made), [this, turn](FinishedJob file, std::string why) {
+            take(turn, std::move(file), std::move(why));
+        });
+    } catch (const std::exception& error) {
+        record_.release(job.file());
+        const std::lock_guard guard(mutex_);
+        fail(turn.task.job, problem_of(error));
+    }
 }
 
 /// Takes a file that has appeared, or a problem for which it has not.

@@ -1,6 +1,7 @@
 #include "art/gallery/publisher.h"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <iterator>
@@ -58,6 +59,14 @@ void publish_gallery_file(GalleryRecord& record, MadeFile& made) {
     }
 }
 
+std::size_t Publisher::most_waiting() {
+    constexpr rlim_t most = 100;
+    struct rlimit files {};
+    if (::getrlimit(RLIMIT_NOFILE, &files) != 0) return most;
+    // Two descriptors each, and as many files are being published: half of the limit.
+    return static_cast<std::size_t>(std::clamp<rlim_t>(files.rlim_cur / 8, 1, most));
+}
+
 Publisher::Publisher(GalleryRecord& record) : record_(record) {
     try {
         thread_ = std::thread([this] { work(); });
@@ -67,7 +76,7 @@ Publisher::Publisher(GalleryRecord& record) : record_(record) {
 }
 
 Publisher::~Publisher() {
-    finish();
+    end();
 }
 
 void Publisher::add(MadeFile file, Done done) {
@@ -75,7 +84,8 @@ void Publisher::add(MadeFile file, Done done) {
     {
         std::unique_lock lock(mutex_);
         if (thread_.joinable()) {
-            changed_.wait(lock, [&] { return waiting_.size() < most_waiting; });
+            changed_.wait(lock, [&] { return error_ || waiting_.size() < most_waiting_; });
+            if (error_) std::rethrow_exception(error_);
             waiting_.push_back({std::move(file), std::move(done)});
             changed_.notify_all();
             return;
@@ -86,6 +96,11 @@ void Publisher::add(MadeFile file, Done done) {
 }
 
 void Publisher::finish() {
+    end();
+    if (error_) std::rethrow_exception(error_);
+}
+
+void Publisher::end() {
     {
         const std::lock_guard guard(mutex_);
         ends_ = true;
@@ -94,7 +109,20 @@ void Publisher::finish() {
     if (thread_.joinable()) thread_.join();
 }
 
-void Publisher::work() {
+void Publisher::work() noexcept {
+    try {
+        publish_all();
+    } catch (...) {
+        // Such as too little memory for a message.
+        {
+            const std::lock_guard guard(mutex_);
+            error_ = std::current_exception();
+        }
+        changed_.notify_all();
+    }
+}
+
+void Publisher::publish_all() {
     while (true) {
         std::vector<Waiting> group;
         {

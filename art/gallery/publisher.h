@@ -9,6 +9,7 @@
 
 #include <condition_variable>
 #include <cstddef>
+#include <exception>
 #include <filesystem>
 #include <functional>
 #include <mutex>
@@ -43,11 +44,13 @@ void publish_gallery_file(GalleryRecord& record, MadeFile& made);
 
 /// Publishes files on a thread of its own, so that no job waits for the disk. Files that are finished meanwhile are
 /// published together: one synchronisation makes as many files durable as the jobs finish during the one before. A
-/// killed run loses these files, at most `most_waiting`; they are made again. After a crash of the machine, files
-/// that appeared and their records are whole.
+/// killed run loses these files: at most most_waiting() that wait, as many that are being published, and one of each
+/// thread that adds files; they are made again. After a crash of the machine, files that appeared and their records
+/// are whole.
 class Publisher {
 public:
-    static constexpr std::size_t most_waiting = 100;
+    /// 100, or fewer if the process may open few files: each holds two folders open.
+    static std::size_t most_waiting();
     /// Receives the file and the reason why it could not be published; empty if it was. Must not throw.
     using Done = std::function<void(FinishedJob file, std::string problem)>;
 
@@ -57,9 +60,11 @@ public:
     Publisher(const Publisher&) = delete;
     Publisher& operator=(const Publisher&) = delete;
 
-    /// Waits while many files are waiting. `done` is called from another thread.
+    /// Waits while many files are waiting. `done` is called from another thread. @throws what ended the thread, and
+    /// std::bad_alloc; the file is then removed, and `done` is not called
     void add(MadeFile file, Done done);
-    /// Publishes the files that wait, and ends the thread. Add no files afterwards.
+    /// Publishes the files that wait, and ends the thread. Add no files afterwards. @throws what ended the thread
+    /// before; files that waited are then removed
     void finish();
 
 private:
@@ -67,15 +72,19 @@ private:
         MadeFile made;
         Done done;
     };
-    void work();
+    void work() noexcept;
+    void publish_all();
+    void end();
     void publish(std::vector<Waiting> group);
 
     GalleryRecord& record_;
     std::mutex mutex_;
     std::condition_variable changed_;
     std::vector<Waiting> waiting_;
+    const std::size_t most_waiting_ = most_waiting();
     bool ends_ = false;
-    std::thread thread_;  ///< none if it could not be started
+    std::exception_ptr error_;  ///< ended the thread
+    std::thread thread_;        ///< none if it could not be started
 };
 
 }  // namespace sikku

@@ -90,7 +90,7 @@ Descriptor open_folder(const std::filesystem::path& folder) {
     return Descriptor(::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC | O_NONBLOCK));
 }
 
-/// Synchronises the names in a folder, unless it is unreadable.
+/// Synchronises the names in a folder, unless it cannot be opened.
 int synchronise_folder(const std::filesystem::path& folder) {
     const Descriptor descriptor = open_folder(folder);
     return descriptor ? synchronise(descriptor.get()) : 0;
@@ -305,7 +305,7 @@ void OutputFile::commit() {
 /// Writes the rest of the buffer and closes the file.
 void OutputFile::finish(bool synchronised) {
     flush();
-    buffer_ = {};
+    std::string().swap(buffer_);  // frees the memory
     if (!direct_) {
         // Synchronise by name, because a library may have recreated the file.
         struct stat own {};
@@ -344,12 +344,14 @@ struct OutputFiles::Group {
         Descriptor descriptor;  ///< none if it is unreadable
         dev_t device = 0;
         ino_t inode = 0;
+        std::uint64_t number = 0;  ///< in the order in which folders were opened
     };
     /// An output that becomes a part of the group.
     struct Member final : Output {
         Member(Group& owner, const std::filesystem::path& target)
             : group(owner), file(std::make_unique<OutputFile>(target)) {
-            group.hold_folder(file->target_.parent_path());
+            if (file->direct_) return;
+            if (const int error = group.hold_folder(file->target_.parent_path()); error != 0) file->fail(error);
         }
         void write(std::string_view bytes) override { file->write(bytes); }
         std::uint64_t size() const override { return file->size(); }
@@ -366,15 +368,22 @@ struct OutputFiles::Group {
         std::unique_ptr<OutputFile> file;
     };
 
-    void hold_folder(const std::filesystem::path& path) {
-        if (folders.contains(path)) return;
+    /// Returns the error number, 0 on success. An unreadable folder is no error.
+    int hold_folder(const std::filesystem::path& path) {
+        if (folders.contains(path)) return 0;
         Folder folder{open_folder(path)};
-        struct stat status {};
-        if (folder.descriptor && ::fstat(folder.descriptor.get(), &status) == 0) {
+        if (!folder.descriptor && errno != EACCES) return errno;
+        if (folder.descriptor) {
+            // After opening: the lowest number of several folders was opened before files of any were written.
+            static std::atomic<std::uint64_t> opened{0};
+            folder.number = ++opened;
+            struct stat status {};
+            if (::fstat(folder.descriptor.get(), &status) != 0) return errno;
             folder.device = status.st_dev;
             folder.inode = status.st_ino;
         }
         folders.emplace(path, std::move(folder));
+        return 0;
     }
     const Folder& folder_of(const OutputFile& file) const { return folders.at(file.target_.parent_path()); }
     std::map<std::filesystem::path, Folder> folders;
@@ -411,10 +420,20 @@ void OutputFiles::commit() {
 void OutputFiles::commit(std::span<OutputFiles* const> groups) {
     // Files that have not appeared.
     std::vector<std::pair<OutputFile*, const Group::Folder*>> files;
+    // The folders of all files: if an earlier call failed, those of files that have appeared are not synchronised
+    // yet. Several paths may name one folder.
+    std::map<std::pair<dev_t, ino_t>, std::pair<const OutputFile*, const Group::Folder*>> folders;
+    // The folder of each device that was opened first: only it is told of all errors of the files.
+    std::map<dev_t, const Group::Folder*> oldest;
     for (const OutputFiles* each : groups) {
         for (const auto& file : each->group_->files) {
-            if (file->direct_ || file->temporary_.empty()) continue;
-            files.emplace_back(file.get(), &each->group_->folders.at(file->target_.parent_path()));
+            if (file->direct_) continue;
+            const Group::Folder& folder = each->group_->folder_of(*file);
+            if (!file->temporary_.empty()) files.emplace_back(file.get(), &folder);
+            if (!folder.descriptor) continue;
+            folders.try_emplace({folder.device, folder.inode}, file.get(), &folder);
+            const Group::Folder*& first = oldest[folder.device];
+            if (!first || folder.number < first->number) first = &folder;
         }
     }
     // Each file takes some milliseconds, and the whole file system not much more.
@@ -424,14 +443,13 @@ void OutputFiles::commit(std::span<OutputFiles* const> groups) {
         if (files.size() <= few || !folder->descriptor) {
             file->synchronise();
         } else if (devices.insert(folder->device).second) {
-            if (const int error = synchronise_file_system(folder->descriptor); error != 0) file->fail(error);
+            const Descriptor& descriptor = oldest.at(folder->device)->descriptor;
+            if (const int error = synchronise_file_system(descriptor); error != 0) file->fail(error);
         }
     }
     for (const auto& each : files) each.first->publish();
-    // Several paths may name one folder.
-    std::set<std::pair<dev_t, ino_t>> folders;
-    for (const auto& [file, folder] : files) {
-        if (!folder->descriptor || !folders.emplace(folder->device, folder->inode).second) continue;
+    for (const auto& each : folders) {
+        const auto& [file, folder] = each.second;
         if (const int error = synchronise(folder->descriptor.get()); error != 0) file->fail(error);
     }
 }

@@ -132,7 +132,7 @@ private:
             if (is_new) blocks_.push_back({cell, 0, {}});
             keep(blocks_[found->second], number);
         }
-        sample_ = {};
+        std::vector<glm::dvec2>().swap(sample_);  // frees the memory
         return points_ - 1;
     }
 

@@ -20,7 +20,7 @@ public:
         if (words_.empty()) {
             words_.reserve(bytes_.capacity());
             words_.assign(bytes_.begin(), bytes_.end());
-            bytes_ = {};
+            std::vector<std::uint8_t>().swap(bytes_);  // frees the memory
         }
         words_.push_back(number);
     }

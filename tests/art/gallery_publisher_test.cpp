@@ -5,12 +5,15 @@
 #include "tests/files.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <filesystem>
 #include <map>
 #include <mutex>
+#include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace sikku::gallery_publisher_test {
@@ -97,6 +100,30 @@ TEST(Publisher, AFileThatCannotAppearLeavesTheOthers) {
         EXPECT_TRUE(has(lines, "{\"file\":\"" + name + "\""));
     }
     EXPECT_FALSE(has(lines, "{\"file\":\"c.svg\""));
+}
+
+TEST(Publisher, AnErrorOfItsThreadIsReported) {
+    const ScratchFolder scratch;
+    const GalleryFolder folder(scratch.path());
+    GalleryRecord record(folder, "gallery.jsonl", false, [] {});
+    Publisher publisher(record);
+    publisher.add(made_file(record, folder, "a.svg"),
+                  [](const FinishedJob&, const std::string&) { throw std::runtime_error("no memory"); });
+    EXPECT_EQ(error_of([&] { publisher.finish(); }), "no memory");
+    EXPECT_EQ(error_of([&] { publisher.finish(); }), "no memory");
+}
+
+TEST(Publisher, FewFilesWaitIfFewMayBeOpen) {
+    struct rlimit known {};
+    ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &known), 0);
+    for (const auto& [files, most] : {std::pair(4, 1u), std::pair(80, 10u), std::pair(1024, 100u)}) {
+        struct rlimit limit = known;
+        limit.rlim_cur = static_cast<rlim_t>(files);
+        if (limit.rlim_cur > known.rlim_max) continue;
+        EXPECT_EQ(::setrlimit(RLIMIT_NOFILE, &limit), 0);
+        EXPECT_EQ(Publisher::most_waiting(), most) << files;
+    }
+    ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &known), 0);
 }
 
 TEST(Publisher, WhatMakesNoFileIsReported) {

@@ -396,4 +396,24 @@ TEST(OutputFiles, AnErrorLeavesTheOthersToAnotherCall) {
     }
 }
 
+TEST(OutputFiles, AFolderThatCannotBeOpenedIsAnError) {
+    const ScratchFolder folder;
+    OutputFiles files;
+    struct rlimit known {};
+    ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &known), 0);
+    const int next = ::dup(STDERR_FILENO);
+    ::close(next);
+    // Enough for the file, but not for its folder.
+    struct rlimit one_more = known;
+    one_more.rlim_cur = static_cast<rlim_t>(next) + 1;
+    ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &one_more), 0);
+    const std::string problem = error_of([&] { files.add(folder / "a", "x"); });
+    ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &known), 0);
+    EXPECT_EQ(problem, "cannot write '" + (folder / "a").string() + "': Too many open files");
+    EXPECT_TRUE(folder.names().empty());
+    files.add(folder / "a", "x");
+    files.commit();
+    EXPECT_EQ(contents(folder / "a"), "x");
+}
+
 }  // namespace sikku::output_file_test
