@@ -72,7 +72,7 @@ private:
         std::vector<SheetDraft> drafts = lay_rows();
         const std::size_t most = most_sheets - plan_.sheets.size();
         std::vector<SheetDraft> nested =
-            nest_sheets(kinds_, whole_, options_.grain, area / area_of_all_, most, monitor_);
+            nest_sheets(kinds_, drafts, whole_, options_.grain, area / area_of_all_, most, monitor_);
         // Pieces in rows share more of their cuts.
         const bool is_less =
             options_.gap > 0 ? needs_less(kinds_, nested, drafts) : count_of(nested) < count_of(drafts);

@@ -17,10 +17,9 @@ namespace sikku {
 namespace {
 
 /// Pieces on a sheet, above which the search would take too long.
-constexpr double most_nested_on_sheet = 1'500;
-/// Pairs of sides of no-fit polygons that are compared for all sheets of a plan: always, and where this may save a
-/// sheet.
-constexpr double usual_work = 3e8, most_work = 2e9;
+constexpr std::size_t most_nested_on_sheet = 1'500;
+/// Steps of PieceNest for all sheets of a plan: always, and where this may save a sheet.
+constexpr double usual_work = 1.5e8, most_work = 8e8;
 constexpr double most_density = 0.95;  ///< share of an area that pieces are hoped to fill
 constexpr double same_area = 1e-9;     // relative difference
 
@@ -36,14 +35,15 @@ public:
 
     std::vector<SheetDraft> plan(double work, std::size_t sheet_limit) {
         std::vector<SheetDraft> sheets;
+        const double end = nest_.work() + 2 * work;
         left_.clear();
         for (const NestKind& kind : kinds_) left_.push_back(kind.pieces);
         while (std::any_of(left_.begin(), left_.end(), [](std::uint64_t count) { return count > 0; })) {
-            if (sheets.size() == sheet_limit) return {};
-            Draft best = first_draft();
-            if (best.pieces.empty()) return {};
+            if (sheets.size() == sheet_limit || nest_.work() > end) return {};
             // The first sheet is often one of many alike.
             const double begin = nest_.work(), share = work / 2;
+            Draft best = first_draft(begin + share / 2);
+            if (best.pieces.empty()) return {};
             improve(best, begin + share);
             work -= std::min(share, nest_.work() - begin);
             SheetDraft& sheet = sheets.emplace_back();
@@ -81,12 +81,14 @@ private:
         return outlines;
     }
 
-    Draft first_draft() {
+    /// @param end  value of PieceNest::work() after which one draft is enough
+    Draft first_draft(double end) {
         Draft best;
         Score least;
         for (const bool has_rows : {true, false}) {
             constexpr int directions = 4;
             for (int i = 0; i < 2 * directions; ++i) {
+                if (!best.pieces.empty() && nest_.work() > end) return best;
                 Draft draft{{}, left_};
                 if (has_rows) lay_rows(draft);
                 nest_.fill(area_, goal(std::numbers::pi * (i / 2) / 2, i % 2 == 1), order_, draft.left, draft.pieces);
@@ -101,8 +103,7 @@ private:
     void lay_rows(Draft& draft) const {
         const auto kind = static_cast<std::size_t>(
             std::find_if(left_.begin(), left_.end(), [](std::uint64_t count) { return count > 0; }) - left_.begin());
-        const auto most =
-            static_cast<std::size_t>(std::min(static_cast<double>(left_[kind]), 2 * most_nested_on_sheet));
+        const auto most = static_cast<std::size_t>(std::min<std::uint64_t>(left_[kind], most_nested_on_sheet));
         for (const PieceCopy& copy : kinds_[kind].rows->fill(area_, most).copies)
             draft.pieces.push_back({kind, copy});
         draft.left[kind] -= draft.pieces.size();
@@ -166,7 +167,7 @@ private:
 
     std::span<const NestKind> kinds_;
     Box area_;
-    const Monitor& monitor_;
+    Monitor monitor_;
     PieceNest nest_;
     std::vector<std::size_t> order_;
     std::vector<PolygonMass> mass_;    // of kinds
@@ -204,8 +205,12 @@ bool needs_less(std::span<const NestKind> kinds, const std::vector<SheetDraft>& 
     return free(sheets) > free(others) + least;
 }
 
-std::vector<SheetDraft> nest_sheets(std::span<const NestKind> kinds, const Box& area, bool keeps_direction,
-                                    double effort, std::size_t sheet_limit, const Monitor& monitor) {
+std::vector<SheetDraft> nest_sheets(std::span<const NestKind> kinds, const std::vector<SheetDraft>& rows,
+                                    const Box& area, bool keeps_direction, double effort, std::size_t sheet_limit,
+                                    const Monitor& monitor) {
+    const bool has_many = std::any_of(
+        rows.begin(), rows.end(), [](const SheetDraft& sheet) { return sheet.pieces.size() > most_nested_on_sheet; });
+    if (has_many) return {};
     double pieces = 0, area_of_pieces = 0;
     for (const NestKind& kind : kinds) {
         const auto count = static_cast<double>(kind.pieces);
@@ -213,7 +218,6 @@ std::vector<SheetDraft> nest_sheets(std::span<const NestKind> kinds, const Box& 
         area_of_pieces += polygon_area(kind.outline) * count;
     }
     const double on_full_sheet = pieces * area.size().x * area.size().y / area_of_pieces;
-    if (std::min(pieces, on_full_sheet) > most_nested_on_sheet) return {};
     SheetNester nester(kinds, area, keeps_direction, monitor);
     if (!nester.is_possible()) return {};
     std::vector<SheetDraft> sheets = nester.plan(effort * usual_work, sheet_limit);

@@ -27,12 +27,14 @@ struct NestKind {
 /// as high as possible, whichever leaves less for the next sheet. Then pieces in small windows are taken out again
 /// and again and laid anew, which is kept unless it is worse ("ruin and recreate", Schrimpf et al. 2000), longer
 /// where that may save a sheet. The windows are pseudo-random; the plan is the same in every run. Cost: some seconds.
-/// @param kinds  the largest first  @param area  of a sheet, within its margins
+/// @param kinds  the largest first  @param rows  a plan of these pieces  @param area  of a sheet, within its margins
 /// @param effort  share of the usual effort, up to 1
 /// @param sheet_limit  number of different sheets after which nothing is returned
-/// @return empty if pieces have too many corners, or if there are too many of them  @throws Stopped
-std::vector<SheetDraft> nest_sheets(std::span<const NestKind> kinds, const Box& area, bool keeps_direction,
-                                    double effort, std::size_t sheet_limit, const Monitor& monitor);
+/// @return empty if pieces have too many corners, if there are more than 1,500 on a sheet of `rows`, or if sheets
+/// would take too long  @throws Stopped
+std::vector<SheetDraft> nest_sheets(std::span<const NestKind> kinds, const std::vector<SheetDraft>& rows,
+                                    const Box& area, bool keeps_direction, double effort, std::size_t sheet_limit,
+                                    const Monitor& monitor);
 
 /// The least y coordinate of the outlines of pieces.
 double lowest_of(std::span<const NestKind> kinds, const std::vector<NestedPiece>& pieces);

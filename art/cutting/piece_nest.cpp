@@ -95,6 +95,7 @@ public:
         while (!heap_.empty()) {
             Candidate& top = heap_.front();
             for (; top.checked < laid.size(); ++top.checked) {
+                ++work_;
                 const NoFit* no_fit = no_fits_[top.checked];
                 if (no_fit && no_fit->overlaps(top.at - laid[top.checked].at)) break;
             }
@@ -106,8 +107,8 @@ public:
     }
     /// The worth of a place: more is better.
     double worth(glm::dvec2 at) const { return scalar_product(up_, at) + lowest_; }
-    /// Decides between places of equal worth.
     double work() const { return work_; }
+    /// Decides between places of equal worth.
     double left(glm::dvec2 at) const { return scalar_product(left_, at) + leftmost_; }
 
 private:
@@ -154,6 +155,7 @@ private:
                 }
             }
         }
+        work_ += static_cast<double>(seen_);
         for (std::size_t other = 0; other < seen_; ++other) {
             if (!no_fits_[other]) continue;
             const NoFit& beside = *no_fits_[other];

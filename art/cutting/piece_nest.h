@@ -45,7 +45,8 @@ public:
     void fill(const Box& area, Goal goal, std::span<const std::size_t> kinds, std::vector<std::uint64_t>& left,
               std::vector<NestedPiece>& laid);
 
-    /// Pairs of sides of no-fit polygons that were compared so far.
+    /// Steps of searches so far: pieces that were looked up, places checked against pieces, and pairs of sides of
+    /// no-fit polygons compared.
     double work() const { return work_; }
 
 private:
@@ -69,7 +70,7 @@ private:
     const NoFit& no_fit(std::size_t fixed, std::size_t moved);
 
     std::vector<Outline> outlines_;
-    const Monitor& monitor_;
+    Monitor monitor_;
     bool is_possible_ = true;
     double work_ = 0;
     std::vector<std::vector<Outline>> parts_;       // of kinds

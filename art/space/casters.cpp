@@ -144,10 +144,12 @@ struct SeenCorners {
         cells.resize(count);
         std::uint32_t* const out = cells.data();
         const float *const x = at[0].data(), *const y = at[1].data();
-        // The map lies around all corners.
+        // The map lies around all corners, unless its scale is beyond the accuracy of numbers.
+        const auto cell = [](float value) {
+            return static_cast<std::int32_t>(value > 0 ? std::min(value + 0.5F, 32767.0F) : 0.0F);
+        };
         for (std::size_t i = 0; i < count; ++i) {
-            out[i] = static_cast<std::uint32_t>(static_cast<std::int32_t>(x[i] + 0.5F) |
-                                                static_cast<std::int32_t>(y[i] + 0.5F) << 16);
+            out[i] = static_cast<std::uint32_t>(cell(x[i]) | cell(y[i]) << 16);
         }
     }
 };

@@ -74,6 +74,10 @@ Daylight::Daylight(const Scene& scene, const Style& style, double step, double p
 void Daylight::build(int threads, const std::function<void()>& watch) {
     const std::vector<glm::vec3> sky = sky_directions();
     const std::vector<glm::vec3> sun = sun_directions(light_.azimuth, light_.elevation);
+    // An earlier call may have been stopped.
+    sky_.clear();
+    sky_weights_.clear();
+    sun_.clear();
     float sum = 0;
     for (const glm::vec3& towards : sky) {
         sky_.emplace_back(towards, casters_.low(), casters_.high(), side_ / 2);

@@ -20,12 +20,16 @@ struct MapPlace {
     float height;  ///< not above `highest`, so that it fits into an integer
 };
 
+/// The nearest value from 0 to `most`; 0 if it is not a number.
+float within(float value, float most) {
+    return value > 0 ? std::min(value, most) : 0.0F;
+}
+
 MapPlace place_in(const DepthMap& map, const glm::vec3& point) {
     const glm::vec3 at = map.seen(point);
     // What lies outside is as open as the rim; points below the scene are below its lowest height.
-    return {std::clamp(at.x - 0.5F, 0.0F, static_cast<float>(map.width) - 1.5F),
-            std::clamp(at.y - 0.5F, 0.0F, static_cast<float>(map.rows) - 1.5F),
-            std::clamp(at.z + map.bias, 0.0F, DepthMap::highest)};
+    return {within(at.x - 0.5F, static_cast<float>(map.width) - 1.5F),
+            within(at.y - 0.5F, static_cast<float>(map.rows) - 1.5F), within(at.z + map.bias, DepthMap::highest)};
 }
 
 void shine_scalar(const DepthMap& map, float weight, LitPlaces& places) {

@@ -48,7 +48,8 @@ public:
         }
     }
     std::uint8_t operator()(float value) const {
-        std::size_t byte = lowest_[static_cast<std::size_t>(std::clamp(value, 0.0F, 1.0F) * float{cells})];
+        std::size_t byte =
+            lowest_[static_cast<std::size_t>((value > 0 ? std::min(value, 1.0F) : 0.0F) * float{cells})];
         while (byte < 255 && value >= begins_[byte + 1]) ++byte;
         return static_cast<std::uint8_t>(byte);
     }

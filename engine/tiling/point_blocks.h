@@ -17,7 +17,8 @@ namespace sikku {
 
 /// Numbers points in the order in which they are added; equal coordinates have one number. Points of one square block
 /// of the plane share a small hash table, which fits into a cache: the corners of a tile, and of the tiles that are
-/// drawn next, are in few blocks. Memory: that of the coordinates, and about 8 bytes a point.
+/// drawn next, are in few blocks. Memory: that of the coordinates, and about 8 bytes a point where points lie as
+/// dense as the first 1,024; blocks of few points take more.
 class PointBlocks {
 public:
     /// @param rank  number of coordinates of a point

@@ -222,7 +222,8 @@ private:
         const double share =
             std::min(expected_ / tiles_.tiles(), most_corners_ / static_cast<double>(tiles_.corner.size()));
         const auto expected = [&](std::size_t size) {
-            return static_cast<std::size_t>(share * static_cast<double>(size)) + 1;
+            constexpr double most = 4e6;  // an estimate, which may be far too large
+            return static_cast<std::size_t>(std::min(share * static_cast<double>(size), most)) + 1;
         };
         tiles_.corner.reserve(expected(tiles_.corner.size()));
         plane_.expect_points(expected(plane_.points()));

@@ -30,7 +30,9 @@ TEST(PrintCost, LightTakesMostOfTheTimeOfAPictureInSpace) {
     const double flat = own(cost(plant, "png", {{"light", "flat"}, {"size", "A5"}}));
     const double lit = own(cost(plant, "png", {{"size", "A5"}}));
     EXPECT_GT(lit, 2 * flat);
+    EXPECT_LT(lit, 15 * flat);
     EXPECT_GT(lit, 1.5);
+    EXPECT_LT(lit, 10);
     // The cost of light depends on pixels, not on lines.
     const double large = own(cost(plant, "png", {{"size", "A3"}}));
     EXPECT_GT(large, 2 * lit);

@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <random>
 #include <string>
 #include <vector>
@@ -137,25 +138,49 @@ TEST(DepthMap, ThePlacesOfAPacketHaveTheLightOfEachAlone) {
     for (int light = 0; light < 10; ++light) {
         const Drawn drawn(casters, random_direction(random), 512);
         const DepthMap& map = drawn.map;
-        LitPlaces slow, fast;
+        LitPlaces places;
         std::vector<std::array<float, 2>> expected;
         for (int i = 0; i < 1003; ++i) {
             const glm::vec3 point =
                 glm::mix(casters.low(), casters.high(), glm::vec3(share(random), share(random), share(random)));
             const glm::vec3 normal = random_direction(random);
             const bool is_thin = random() % 2 == 0;
-            slow.add(point, normal, is_thin);
-            fast.add(point, normal, is_thin);
+            places.add(point, normal, is_thin);
             const float cosine = glm::dot(normal, map.towards);
             const glm::vec3 nudge = normal * map.nudge;
             expected.push_back({cosine > 0 ? cosine * map.reaches(point + nudge) : 0.0F,
                                 cosine < 0 && is_thin ? -cosine * map.reaches(point - nudge) : 0.0F});
         }
-        map.shine(0.25F, slow, Simd::scalar);
-        map.shine(0.25F, fast, best_simd());
+        map.shine(0.25F, places, Simd::scalar);
         for (std::size_t i = 0; i < expected.size(); ++i) {
-            EXPECT_FLOAT_EQ(slow.column(LitPlaces::front)[i], 0.25F * expected[i][0]);
-            EXPECT_FLOAT_EQ(slow.column(LitPlaces::behind)[i], 0.25F * expected[i][1]);
+            EXPECT_FLOAT_EQ(places.column(LitPlaces::front)[i], 0.25F * expected[i][0]);
+            EXPECT_FLOAT_EQ(places.column(LitPlaces::behind)[i], 0.25F * expected[i][1]);
+        }
+    }
+}
+
+TEST(DepthMap, InstructionSetsGiveTheSameLight) {
+    if (best_simd() != Simd::avx2) GTEST_SKIP() << "this processor has no AVX2";
+    const Scene scene = random_scene(7);
+    const Casters casters(scene, thin_lines(), 1, 512);
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> share(-0.2F, 1.2F);
+    for (int light = 0; light < 10; ++light) {
+        const Drawn drawn(casters, random_direction(random), 512);
+        LitPlaces slow, fast;
+        for (int i = 0; i < 1003; ++i) {
+            const float nan = std::numeric_limits<float>::quiet_NaN();
+            const glm::vec3 point = i == 500 ? glm::vec3(nan)
+                                             : glm::mix(casters.low(), casters.high(),
+                                                        glm::vec3(share(random), share(random), share(random)));
+            const glm::vec3 normal = random_direction(random);
+            const bool is_thin = random() % 2 == 0;
+            slow.add(point, normal, is_thin);
+            fast.add(point, normal, is_thin);
+        }
+        drawn.map.shine(0.25F, slow, Simd::scalar);
+        drawn.map.shine(0.25F, fast, best_simd());
+        for (std::size_t i = 0; i < slow.size(); ++i) {
             EXPECT_EQ(fast.column(LitPlaces::front)[i], slow.column(LitPlaces::front)[i]);
             EXPECT_EQ(fast.column(LitPlaces::behind)[i], slow.column(LitPlaces::behind)[i]);
         }
