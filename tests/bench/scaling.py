@@ -1,16 +1,15 @@
 #!/usr/bin/env python3
 """Measures how time and memory grow with the size of the work, beside other programs, and writes the results.
 
-Usage: scaling.py PROGRAM [--repeats N] [--only WORK …] [--write]
+Usage: scaling.py PROGRAM [--repeats N] [--only WORK …] [--note TEXT] [--write]
 
 Every point runs a whole program, several times, and counts processor time (user and system, of all cores) and peak
 memory; the median stands. The works of a series and those of its peers take turns, so that they see the same machine.
 The exponent is the slope of log time over log size, by least squares, of the points that take twice as long as
 `PROGRAM --version` or more, after that time is subtracted. --write replaces the generated part of docs/performance.md
-and draws docs/performance.png by PROGRAM itself. Peers that are not installed are left out, which the page says:
-node and npm (lindenmayer is fetched into a folder that is removed afterwards), inkscape with python3-lxml, python3-cssselect and
-python3-numpy, imagemagick,
-librsvg2-bin, midicsv, potrace.
+and draws its charts by PROGRAM itself; --note says under which conditions. Peers that are not installed are left out,
+which the page says: node and npm (lindenmayer is fetched into a folder that is removed afterwards), inkscape with
+python3-lxml, python3-cssselect and python3-numpy, imagemagick, librsvg2-bin, midicsv, potrace.
 """
 import argparse
 import json
@@ -316,12 +315,14 @@ def machine() -> str:
     return f"{len(names)} cores of {names[0] if names else 'an unnamed processor'}, {memory:.0f} GB"
 
 
-def page(measured: list[Work], single: list[tuple[str, Point]], nothing: tuple[float, float], repeats: int, missing: list[str]) -> str:
+def page(measured: list[Work], single: list[tuple[str, Point]], nothing: tuple[float, float], repeats: int,
+         missing: list[str], note: str) -> str:
     seconds, megabytes = nothing
     lines = [
-        f"{machine()}; medians of {repeats} runs of the whole program: processor time of all cores together, and peak memory. "
+        f"{machine()}; {f'medians of {repeats} runs' if repeats > 1 else 'one run'} of the whole program: processor time of all cores together, and peak memory. "
         f"A program that does nothing (`sikku --version`) takes {time_text(seconds)} and {megabytes:.0f} MB. Exponents are "
-        "those of what is beyond it: 1 is time in proportion to the size; *constant*: too little grows to be fitted.", "",
+        "those of what is beyond it: 1 is time in proportion to the size; *constant*: too little grows to be fitted. "
+        f"{note}".rstrip(), "",
         "![Processor time over size](performance-time.png)", "", "![Peak memory over size](performance-memory.png)", "",
         "| work | largest | time | a second | memory | exponent of time | of memory | limit |", "|---|---|---|---|---|---|---|---|",
     ]
@@ -383,6 +384,7 @@ def main() -> None:
     options.add_argument("program")
     options.add_argument("--repeats", type=int, default=3)
     options.add_argument("--only", nargs="*")
+    options.add_argument("--note", default="", help="a sentence about the build and the machine")
     options.add_argument("--write", action="store_true", help="replace the generated part of docs/performance.md")
     arguments = options.parse_args()
     with tempfile.TemporaryDirectory() as folder:
@@ -405,7 +407,7 @@ def main() -> None:
         for what, point in single:
             measure(Work(what, "", "", "", [point]), bench, arguments.repeats)
             print(f"{what}: {time_text(point.seconds)}", file=sys.stderr)
-        text = page(measured, single, nothing, arguments.repeats, missing)
+        text = page(measured, single, nothing, arguments.repeats, missing, arguments.note)
         if not arguments.write:
             print(text)
             return
