@@ -649,7 +649,8 @@ void PlotPlan::arrange_layer(PlotLayer& layer, glm::dvec2 start, double drawn) {
         joined = join_segments(layer.graph, options_.monitor);
     }
     layer.repeated = {};
-    layer.strokes = sort_strokes(layer.graph, joined, start, drawn, options_.monitor);
+    layer.strokes = sort_strokes(layer.graph, joined, start, options_.home && slots_in_order().size() == 1, drawn,
+                                 options_.monitor);
     const PlotWay way = way_of(layer.graph, layer.strokes, start, step, options_.monitor);
     const PlotWay as_drawn = way_of(layer.graph, layer.as_drawn, start, step, options_.monitor);
     if (is_worse(way.tally, as_drawn.tally, options_.speeds)) {

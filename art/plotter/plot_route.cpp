@@ -60,11 +60,13 @@ class PlotRoute {
 public:
     /// @param points  ends of the strokes, two each
     /// @param start   position of the pen before the first one
-    PlotRoute(std::vector<glm::dvec2> points, std::vector<PlotEnd> order, glm::dvec2 start)
+    /// @param returns  the pen travels back to its start
+    PlotRoute(std::vector<glm::dvec2> points, std::vector<PlotEnd> order, glm::dvec2 start, bool returns)
         : points_(std::move(points)),
           order_(std::move(order)),
           place_(order_.size()),
-          start_(static_cast<PlotEnd>(points_.size())) {
+          start_(static_cast<PlotEnd>(points_.size())),
+          returns_(returns) {
         for (std::uint32_t i = 0; i < order_.size(); ++i) place_[order_[i] / 2] = i;
         points_.push_back(start);
     }
@@ -72,7 +74,7 @@ public:
     /// Length of all travel between the strokes.
     double length() const {
         double sum = 0;
-        for (std::uint32_t i = 0; i < order_.size(); ++i) sum += distance(left(i), order_[i]);
+        for (std::uint32_t i = 0; i <= order_.size(); ++i) sum += distance(left(i), right(i));
         return sum;
     }
 
@@ -129,7 +131,7 @@ private:
         bool turns = true;
     };
 
-    // Travel i leads to the i-th stroke; the last one, of no length, to `no_end`.
+    // Travel i leads to the i-th stroke; the last one to `no_end`: home, or nowhere, which is no way.
     PlotEnd left(std::uint32_t i) const { return i == 0 ? start_ : order_[i - 1] ^ 1U; }
     PlotEnd right(std::uint32_t i) const { return i == order_.size() ? no_end : order_[i]; }
     /// The travel at an end.
@@ -139,7 +141,8 @@ private:
         return order_[at] == end ? at : at + 1;
     }
     double distance(PlotEnd a, PlotEnd b) const {
-        return a == no_end || b == no_end ? 0.0 : glm::distance(points_[a], points_[b]);
+        if (a != no_end && b != no_end) return glm::distance(points_[a], points_[b]);
+        return returns_ ? glm::distance(points_[a == no_end ? b : a], points_[start_]) : 0.0;
     }
 
     void enter(Part& part, std::uint32_t travel) {
@@ -295,8 +298,9 @@ private:
 
     std::vector<glm::dvec2> points_;
     std::vector<PlotEnd> order_;
-    std::vector<std::uint32_t> place_;    // place of each stroke in the order
-    PlotEnd start_;                       // a point that is no end of a stroke
+    std::vector<std::uint32_t> place_;  // place of each stroke in the order
+    PlotEnd start_;                     // a point that is no end of a stroke
+    bool returns_;
     std::vector<std::uint32_t> part_of_;  // by stroke
     std::vector<char> is_queued_;         // by end
 };
@@ -453,7 +457,7 @@ Walk walk_to_nearest(const PlotGraph& graph, const PlotStrokes& given, glm::dvec
 
 /// Lets each closed stroke begin where the detour between its neighbours in the order is least.
 void choose_beginnings(const PlotGraph& graph, const PlotStrokes& given, const std::vector<PlotEnd>& order,
-                       glm::dvec2 start, Walk& walk, const Monitor& monitor) {
+                       glm::dvec2 start, bool returns, Walk& walk, const Monitor& monitor) {
     if (walk.begin.empty()) return;
     Pulse pulse(monitor);
     for (std::size_t at = 0; at < order.size(); ++at) {
@@ -465,7 +469,8 @@ void choose_beginnings(const PlotGraph& graph, const PlotStrokes& given, const s
         const auto detour = [&](std::uint32_t k) {
             const glm::dvec2 way = graph.point(in_order[k]);
             const bool is_last = at + 1 == order.size();
-            return glm::distance(from, way) + (is_last ? 0.0 : glm::distance(way, walk.points[order[at + 1]]));
+            if (is_last) return glm::distance(from, way) + (returns ? glm::distance(way, start) : 0.0);
+            return glm::distance(from, way) + glm::distance(way, walk.points[order[at + 1]]);
         };
         std::uint32_t& best = walk.begin[enter / 2];
         double least = detour(best);
@@ -482,30 +487,30 @@ void choose_beginnings(const PlotGraph& graph, const PlotStrokes& given, const s
 
 }  // namespace
 
-PlotStrokes sort_strokes(const PlotGraph& graph, const PlotStrokes& given, glm::dvec2 start, double drawn,
-                         const Monitor& monitor) {
+PlotStrokes sort_strokes(const PlotGraph& graph, const PlotStrokes& given, glm::dvec2 start, bool returns,
+                         double drawn, const Monitor& monitor) {
     const std::vector<PlotStroke>& strokes = given.strokes;
     Walk walk = walk_to_nearest(graph, given, start, monitor);
-    PlotRoute best(walk.points, std::move(walk.order), start);
+    PlotRoute best(walk.points, std::move(walk.order), start, returns);
     best.improve(walk.near, monitor);
     if (best.length() > drawn || strokes.size() <= few) {
         std::vector<PlotEnd> order(strokes.size());
         for (std::uint32_t i = 0; i < order.size(); ++i) order[walk.number[i]] = 2 * i;
-        PlotRoute other(walk.points, std::move(order), start);
+        PlotRoute other(walk.points, std::move(order), start, returns);
         other.improve(walk.near, monitor);
         if (other.length() < best.length()) best = std::move(other);
     }
-    choose_beginnings(graph, given, best.order(), start, walk, monitor);
+    choose_beginnings(graph, given, best.order(), start, returns, walk, monitor);
     // Other beginnings may make another order shorter, and the reverse.
     for (int round = 0; round < most_rounds && !walk.begin.empty() && strokes.size() <= few; ++round) {
         Walk next = walk;
         next.near = near_ends(next.points, monitor);
         add_start(next.near, next.points, start);
-        PlotRoute route(next.points, best.order(), start);
+        PlotRoute route(next.points, best.order(), start, returns);
         const double before = route.length();
         route.improve(next.near, monitor);
-        choose_beginnings(graph, given, route.order(), start, next, monitor);
-        route = PlotRoute(next.points, route.order(), start);
+        choose_beginnings(graph, given, route.order(), start, returns, next, monitor);
+        route = PlotRoute(next.points, route.order(), start, returns);
         if (!(route.length() < before)) break;
         best = std::move(route);
         walk = std::move(next);

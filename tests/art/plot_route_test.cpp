@@ -45,7 +45,7 @@ struct Drawing {
         }
         return sum;
     }
-    PlotStrokes sorted() const { return sort_strokes(graph, given, {0, 0}, travel(given)); }
+    PlotStrokes sorted() const { return sort_strokes(graph, given, {0, 0}, false, travel(given)); }
 
     /// Travel of a walk that always goes to the nearest end or corner, found by looking at all.
     double nearest_first() const {

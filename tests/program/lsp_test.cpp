@@ -376,7 +376,7 @@ TEST(Lsp, SaysThatADocumentIsTooLarge) {
     const Conversation only = converse(start + opened(huge) + end);
     ASSERT_EQ(only.diagnostics(address).size(), 1u);
     const std::string message = only.diagnostics(address)[0]["message"];
-    EXPECT_TRUE(has(message, "64 MB is too large for an editor and is not read; the limits are 4 MB")) << message;
+    EXPECT_TRUE(has(message, "67.1 MB is too large for an editor and is not read; the limits are 4 MB")) << message;
     EXPECT_EQ(told(only), std::vector<std::string>{"/tmp/test.lsys: " + message});
 }
 
