@@ -1,4 +1,4 @@
-// studio/bridge_editor.cpp: what editors ask about the text of a pattern, answered as by the language server.
+// studio/bridge_editor.cpp: answers requests of the editor about the text of a pattern, as the language server does.
 #include "studio/bridge_answers.h"
 #include "studio/editor/answers.h"
 

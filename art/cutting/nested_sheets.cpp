@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t most_nested_on_sheet = 1'500;
 /// Steps of PieceNest for all sheets of a plan: always, and where this may save a sheet.
 constexpr double usual_work = 1.5e8, most_work = 8e8;
-constexpr double most_density = 0.95;  ///< share of an area that pieces are hoped to fill
+constexpr double most_density = 0.95;  ///< largest share of an area that pieces are expected to fill
 constexpr double same_area = 1e-9;     // relative difference
 
 class SheetNester {
@@ -63,10 +63,10 @@ private:
         std::vector<NestedPiece> pieces;
         std::vector<std::uint64_t> left;  ///< pieces of kinds that have no room
     };
-    /// Less is better, the first difference decides.
+    /// Less is better; the first difference decides.
     struct Score {
         double left = 0;    ///< area of pieces that have no room
-        double length = 0;  ///< if there are none
+        double length = 0;  ///< used if none are left
         double depth = 0;   ///< of all pieces: free places gather at the bottom
         bool operator<(const Score& other) const {
             if (std::fabs(left - other.left) > same_area * (left + other.left)) return left < other.left;

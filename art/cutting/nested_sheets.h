@@ -1,4 +1,4 @@
-// art/cutting/nested_sheets.h: plans sheets of pieces of different shapes, whose places are searched one by one.
+// art/cutting/nested_sheets.h: plans sheets of pieces of different shapes that are placed one by one.
 #pragma once
 
 #include "art/cutting/piece_nest.h"
@@ -24,9 +24,10 @@ struct NestKind {
 };
 
 /// Fills one sheet after another: with rows of the largest kind and other pieces beside them, or with pieces that lie
-/// as high as possible, whichever leaves less for the next sheet. Then pieces in small windows are taken out again
-/// and again and laid anew, which is kept unless it is worse ("ruin and recreate", Schrimpf et al. 2000), longer
-/// where that may save a sheet. The windows are pseudo-random; the plan is the same in every run. Cost: some seconds.
+/// as high as possible, whichever leaves less for the next sheet. Then repeatedly takes out the pieces in a small
+/// window and lays them anew, unless the result is worse ("ruin and recreate", Schrimpf et al. 2000); continues
+/// longer where that may save a sheet. The windows are pseudo-random; the plan is the same in every run. Cost: some
+/// seconds.
 /// @param kinds  the largest first  @param rows  a plan of these pieces  @param area  of a sheet, within its margins
 /// @param effort  share of the usual effort, up to 1
 /// @param sheet_limit  number of different sheets after which nothing is returned

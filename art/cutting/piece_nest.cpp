@@ -29,7 +29,7 @@ double positive_turn(double turn) {
     return 2 * std::numbers::pi - turn < same_nest_turn ? 0 : turn;
 }
 
-/// True if the second outline is the first one, moved.
+/// True if the second outline is a translation of the first.
 bool is_displaced(const Outline& a, const Outline& b) {
     const Box first = box_of(a), second = box_of(b);
     const glm::dvec2 way = second.low - first.low;
@@ -105,10 +105,10 @@ public:
         }
         return std::nullopt;
     }
-    /// The worth of a place: more is better.
+    /// The value of a place: more is better.
     double worth(glm::dvec2 at) const { return scalar_product(up_, at) + lowest_; }
     double work() const { return work_; }
-    /// Decides between places of equal worth.
+    /// Decides between places of equal value.
     double left(glm::dvec2 at) const { return scalar_product(left_, at) + leftmost_; }
 
 private:

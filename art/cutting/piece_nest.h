@@ -25,7 +25,7 @@ struct NestedPiece {
 /// outlines and directions share these.
 class PieceNest {
 public:
-    /// What decides between free places: the place whose lowest point or middle lies highest, in some direction.
+    /// Criterion for free places: the place whose lowest point or middle lies highest, in some direction.
     struct Goal {
         glm::dvec2 up{0.0, 1.0};
         bool of_middle = false;

@@ -113,7 +113,7 @@ void Publisher::work() noexcept {
     try {
         publish_all();
     } catch (...) {
-        // Such as too little memory for a message.
+        // For example, too little memory for a message.
         {
             const std::lock_guard guard(mutex_);
             error_ = std::current_exception();

@@ -19,7 +19,7 @@
 
 namespace sikku {
 
-/// A file of a gallery that is complete but for its name and its record.
+/// A complete file of a gallery that still lacks its final name and its record.
 struct MadeFile {
     FinishedJob file;
     GalleryPlace place;
@@ -60,11 +60,11 @@ public:
     Publisher(const Publisher&) = delete;
     Publisher& operator=(const Publisher&) = delete;
 
-    /// Waits while many files are waiting. `done` is called from another thread. @throws what ended the thread, and
-    /// std::bad_alloc; the file is then removed, and `done` is not called
+    /// Waits while many files are waiting. `done` is called from another thread. @throws the error that ended the
+    /// thread, and std::bad_alloc; the file is then removed, and `done` is not called
     void add(MadeFile file, Done done);
-    /// Publishes the files that wait, and ends the thread. Add no files afterwards. @throws what ended the thread
-    /// before; files that waited are then removed
+    /// Publishes the files that wait, and ends the thread. Add no files afterwards. @throws the error that
+    /// ended the thread before; files that waited are then removed
     void finish();
 
 private:

@@ -51,8 +51,8 @@ public:
 
     /// Call before `file` appears, after take().
     void claim(const std::string& file);
-    /// Synchronises the claims. Call before files appear: after a crash of the machine, a file that is there and not
-    /// claimed would be refused.
+    /// Synchronises the claims. Call before files appear: after a system crash, an existing file without a
+    /// claim would be refused.
     void synchronise();
     /// Appends the records of files that are on the disk in a single write, and synchronises it.
     void add(std::span<const FinishedJob* const> jobs);

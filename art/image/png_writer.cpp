@@ -67,12 +67,12 @@ std::uint32_t adler_of_both(std::uint32_t first, std::uint32_t second, std::size
     return static_cast<std::uint32_t>(low % adler_modulus | (high % adler_modulus) << 16U);
 }
 
-/// The first bytes of a stream of zlib (RFC 1950): deflate with a window of 32 kB, and which level was used.
+/// The first bytes of a zlib stream (RFC 1950): deflate with a window of 32 kB, and the level.
 std::string stream_header(int level) {
     return {'\x78', level < 2 ? '\x01' : level < 6 ? '\x5E' : level == 6 ? '\x9C' : '\xDA'};
 }
 
-/// A whole stream of zlib.
+/// A complete zlib stream.
 std::string zlib_stream(std::string_view bytes) {
     constexpr int best_level = 9;
     std::string packed = stream_header(best_level);

@@ -150,7 +150,7 @@ PrefixCode prefix_code(std::span<const std::uint32_t> counts, unsigned most) {
     for (const std::size_t symbol : used) weights.push_back(std::max(counts[symbol], 1U));
     std::array<std::uint32_t, 64> of_length{};
     for (const std::uint32_t length : optimal_lengths(std::move(weights))) ++of_length[std::min(length, most)];
-    // Codes that were cut take the place of others, which become longer.
+    // Shortened codes displace others, which become longer.
     std::uint64_t places = 0;
     for (unsigned length = 1; length <= most; ++length) places += std::uint64_t{of_length[length]} << (most - length);
     for (; places > std::uint64_t{1} << most; --places) {
@@ -466,7 +466,7 @@ void RowDeflater::remember(std::size_t at) {
     remembered_ = at + 1;
 }
 
-/// Remembers the places in a match, but not those in runs of a colour, which cost time and are seldom of use.
+/// Remembers the places in a match, but not those in runs of a colour, which cost time and are rarely useful.
 void RowDeflater::remember_matched(std::size_t at, const Match& match) {
     const std::size_t end = std::min(at + match.length, piece_.size() - std::min<std::size_t>(piece_.size(), 8));
     if (match.distance == pixel_bytes_)

@@ -222,7 +222,7 @@ bool is_beyond_ascii(char byte) {
     return static_cast<unsigned char>(byte) >= 0x80;
 }
 
-/// Replaces Tamil words and digits; words that are not known stay.
+/// Replaces Tamil words and digits; unknown words are kept.
 std::string without_tamil(std::string_view text) {
     constexpr std::string_view zero = "௦";  // the digits follow one another, and differ in their last byte
     std::string result;

@@ -46,8 +46,7 @@ public:
     explicit PlotNodes(double tolerance, std::size_t expected = 0)
         : tolerance_(tolerance), table_(plot_table_size(expected), PlotSegment::none) {}
 
-    /// Fetches what at() will read, so that the processor does not wait for memory: first the place in the table, and
-    /// later the point there.
+    /// Prefetches the memory that at() will read: first the place in the table, and later the point there.
     void expect(glm::dvec2 later, glm::dvec2 soon) const {
 #ifdef __GNUC__
         __builtin_prefetch(&table_[slot(cell_of(later))]);

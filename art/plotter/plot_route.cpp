@@ -131,7 +131,7 @@ private:
         bool turns = true;
     };
 
-    // Travel i leads to the i-th stroke; the last one to `no_end`: home, or nowhere, which is no way.
+    // Travel i leads to the i-th stroke; the last one to `no_end`: back to the start, or nowhere at no cost.
     PlotEnd left(std::uint32_t i) const { return i == 0 ? start_ : order_[i - 1] ^ 1U; }
     PlotEnd right(std::uint32_t i) const { return i == order_.size() ? no_end : order_[i]; }
     /// The travel at an end.
@@ -158,7 +158,7 @@ private:
         settle(near, part, monitor);
     }
 
-    /// Improves the travels that are due, and those next to every change. Returns what that gains.
+    /// Improves the travels that are due, and those next to every change. Returns the length saved.
     double settle(const NearLists& near, Part& part, const Monitor& monitor) {
         double gained = 0;
         Pulse pulse(monitor);
@@ -184,7 +184,7 @@ private:
         return gained;
     }
 
-    /// Exchanges random neighbouring ranges of strokes, and keeps what is shorter once it is settled.
+    /// Exchanges random neighbouring ranges of strokes, improves the result, and keeps it if it is shorter.
     /// Source: Martin, Otto & Felten, Large-step Markov chains for the traveling salesman problem, 1991.
     void shake(const NearLists& near, Part& part, const Monitor& monitor) {
         const std::size_t size = order_.size();
@@ -299,14 +299,14 @@ private:
     std::vector<glm::dvec2> points_;
     std::vector<PlotEnd> order_;
     std::vector<std::uint32_t> place_;  // place of each stroke in the order
-    PlotEnd start_;                     // a point that is no end of a stroke
+    PlotEnd start_;                     // a point, not an end of a stroke
     bool returns_;
     std::vector<std::uint32_t> part_of_;  // by stroke
     std::vector<char> is_queued_;         // by end
 };
 
-/// The points where strokes may begin: both ends, or, if they are closed, any. Strokes are counted along a curve, so
-/// that what is near each other is near each other in memory.
+/// The points where strokes may begin: both ends, or any point of closed ones. Strokes are numbered along a curve, so
+/// that neighbours in the plane are neighbours in memory.
 struct Entries {
     Entries(const PlotGraph& graph, const PlotStrokes& given, const Monitor& monitor) {
         const auto count = given.strokes.size();
@@ -377,7 +377,7 @@ std::vector<std::uint32_t> nearest_first(const Entries& entries, CurveTree& tree
             if (there != list.end()) found = *there;
         }
         if (found == no_end) found = tree.nearest(at == no_end ? start : entries.points[at], at == no_end ? 0 : at);
-        if (found == no_end) {  // only if coordinates are no numbers
+        if (found == no_end) {  // only if coordinates are not numbers
             while (!tree.is_there(left_over)) ++left_over;
             found = left_over;
         }

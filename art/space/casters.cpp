@@ -123,7 +123,7 @@ private:
     int width_, height_;
 };
 
-/// Corners of a chunk as a map sees them.
+/// Corners of a chunk in the coordinates of a map.
 struct SeenCorners {
     std::array<std::vector<float>, 3> at;
     /// The first column, and times 2^16 the first row, that are not before the corner.

@@ -154,7 +154,7 @@ void Daylight::on_surfaces(LitPlaces& places, std::vector<OnSurface>& lights) co
         OnSurface& light = lights[i];
         light.front = mixed(fronts[i]) + open_ * from_around;
         if (light_.has_ground) {
-            // Light that the ground reflects reaches open places more.
+            // Open places receive more of the light that the ground reflects.
             const float facing = 0.5F - 0.5F * places.column(LitPlaces::normal_y)[i];
             const float openness = 0.4F + 0.6F * std::min(1.0F, fronts[i].sky);
             light.front += open_ * ground_tint * (from_ground * facing * openness);

@@ -13,8 +13,8 @@
 
 namespace sikku {
 
-/// Memory for many numbers, which are not set, in pages of 2 MB where the system has them: what is read all over then
-/// misses the processor's table of pages less often, and the system makes fewer pages.
+/// Uninitialised memory for many numbers, in pages of 2 MB where the system supports them: random reads then miss the
+/// processor's TLB less often, and the system has fewer pages to provide.
 template <class Number>
 class LargeArray {
 public:

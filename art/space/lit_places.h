@@ -29,7 +29,7 @@ public:
     void clear();
     /// @param normal  of length 1
     void add(const glm::vec3& point, const glm::vec3& normal, bool thin);
-    /// Without those that fill up.
+    /// The number of places without padding.
     std::size_t size() const { return size_; }
     float* column(Column which) { return columns_[which].data(); }
     const float* column(Column which) const { return columns_[which].data(); }

@@ -22,7 +22,7 @@
 
 namespace sikku {
 
-/// Samples of some rows of a picture. Stretches that nothing has touched cost nothing.
+/// Samples of some rows of a picture. Untouched stretches cost nothing.
 template <class Sample>
 class SampleBand {
 public:

@@ -183,7 +183,7 @@ void join(const Surface& surface, int n, std::vector<Grid>& grids) {
     }
 }
 
-/// Into how many parts the surfaces of a scene are divided, and their points.
+/// Numbers of parts into which the surfaces of a scene are divided, and their points.
 class Division {
 public:
     Division(const std::vector<SceneSurface>& surfaces, const Fineness& fineness) : fineness_(fineness) {

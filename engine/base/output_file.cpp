@@ -368,7 +368,7 @@ struct OutputFiles::Group {
         std::unique_ptr<OutputFile> file;
     };
 
-    /// Returns the error number, 0 on success. An unreadable folder is no error.
+    /// Returns the error number, 0 on success. An unreadable folder is not an error.
     int hold_folder(const std::filesystem::path& path) {
         if (folders.contains(path)) return 0;
         Folder folder{open_folder(path)};
@@ -423,7 +423,7 @@ void OutputFiles::commit(std::span<OutputFiles* const> groups) {
     // The folders of all files: if an earlier call failed, those of files that have appeared are not synchronised
     // yet. Several paths may name one folder.
     std::map<std::pair<dev_t, ino_t>, std::pair<const OutputFile*, const Group::Folder*>> folders;
-    // The folder of each device that was opened first: only it is told of all errors of the files.
+    // The folder of each device that was opened first: only its descriptor reports all errors of the files.
     std::map<dev_t, const Group::Folder*> oldest;
     for (const OutputFiles* each : groups) {
         for (const auto& file : each->group_->files) {
@@ -436,7 +436,7 @@ void OutputFiles::commit(std::span<OutputFiles* const> groups) {
             if (!first || folder.number < first->number) first = &folder;
         }
     }
-    // Each file takes some milliseconds, and the whole file system not much more.
+    // Each file takes a few milliseconds, and the whole file system not much more.
     constexpr std::size_t few = 3;
     std::set<dev_t> devices;
     for (const auto& [file, folder] : files) {

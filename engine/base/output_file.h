@@ -75,11 +75,11 @@ public:
     OutputFiles(OutputFiles&&) noexcept;
     OutputFiles& operator=(OutputFiles&&) noexcept;
 
-    /// Adds a file of that content. @throws as OutputFile
+    /// Adds a file with this content. @throws as OutputFile
     void add(const std::filesystem::path& target, std::string_view bytes);
     /// Opens a file, which its commit() adds.
     std::unique_ptr<Output> open(const std::filesystem::path& target) override;
-    /// The temporary name of the file of that name; empty if there is none.
+    /// The temporary name of a file; empty if the file is not in the group.
     std::filesystem::path temporary(const std::filesystem::path& target) const;
     /// Synchronises the files, renames them and synchronises their folders: a few files one by one, more with their
     /// file systems (syncfs), which also writes what other programs have left to write. Call last. After an

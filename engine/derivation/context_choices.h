@@ -1,4 +1,4 @@
-// engine/derivation/context_choices.h: what the productions of a table look at, by classes of symbols.
+// engine/derivation/context_choices.h: selects the productions of a table that may apply, by classes of symbols.
 #pragma once
 
 #include "engine/language/grammar.h"
@@ -16,7 +16,7 @@ namespace sikku {
 /// table.
 class ContextChoices {
 public:
-    /// What matching has to know of a symbol.
+    /// Properties of a symbol that matching needs.
     struct Kind {
         std::uint32_t row = 0;    ///< in the tables; 0 for all symbols that no production rewrites
         std::uint8_t left = 0;    ///< class as the nearest symbol to the left
@@ -32,7 +32,7 @@ public:
     bool looks_at_nearest() const { return looks_at_nearest_; }
     bool looks_into_branches() const { return looks_into_branches_; }
 
-    /// Index for the classes of the nearest symbols; 0 is the class of no symbol.
+    /// Index for the classes of the nearest symbols; 0 is the class of a missing symbol.
     std::size_t index(const Kind& kind, std::uint8_t left, std::uint8_t right) const {
         return kind.row + left * rights_ + right;
     }

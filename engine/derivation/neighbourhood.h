@@ -18,7 +18,7 @@ class MatchingError : public BudgetError {
 };
 
 /// Counts the symbols compared in matching, over all steps of a derivation, so that the budget limits long contexts
-/// at many places. A few comparisons for each symbol of a word are free. Keeps what is known of the tables.
+/// at many places. A few comparisons for each symbol of a word are free. Keeps the choices of the tables.
 class MatchingWork {
 public:
     explicit MatchingWork(const DerivationOptions& options)
@@ -37,7 +37,7 @@ public:
         if (count_ >= next_look_) look();
     }
 
-    /// Memory that steps use again.
+    /// Memory that steps reuse.
     struct Memory {
         std::vector<std::uint32_t> before, after, branch;
         std::vector<std::uint8_t> classes;

@@ -201,7 +201,7 @@ public:
         return static_cast<std::uint16_t>(outcomes_.size() - 1);
     }
     std::size_t length(std::uint16_t number) const { return outcomes_[number].size; }
-    /// Writes an outcome, and symbols that do not matter up to `room`. Returns the end.
+    /// Writes an outcome, and arbitrary symbols up to `room`. Returns the end.
     Symbol* write(std::uint16_t number, Symbol symbol, Symbol* out) const {
         const Outcome outcome = outcomes_[number];
         const Symbol* const from = pool_.data() + outcome.begin;
@@ -219,8 +219,8 @@ private:
     Word pool_ = Word(room);
 };
 
-/// For productions that rewrite one symbol and look at no more than the nearest one on each side. Only the classes of
-/// the neighbours are kept, and what follows from them is looked up.
+/// For productions that rewrite one symbol and look at most at the nearest one on each side. Stores only the classes
+/// of the neighbours, and looks up the outcomes.
 Word rewrite_by_nearest(const ContextChoices& choices, const Table& table, const Word& word, const LengthLimit& limit,
                         MatchingWork& work, Parents* parents) {
     using Kind = ContextChoices::Kind;

@@ -18,8 +18,8 @@
 
 namespace sikku {
 
-/// Indices of points in their order along a curve that fills the plane: what is near in it is near in the plane.
-/// Cost: O(n), and O(n log n) for points that are far denser in some places than in others. Source: Morton, A
+/// Indices of points in their order along a curve that fills the plane: points near each other in it are near in the
+/// plane. Cost: O(n), and O(n log n) for points that are far denser in some places than in others. Source: Morton, A
 /// computer oriented geodetic data base, 1966.
 inline std::vector<std::uint32_t> order_along_curve(std::span<const glm::dvec2> points, const Monitor& monitor = {}) {
     struct PlaceOnCurve {
@@ -28,7 +28,7 @@ inline std::vector<std::uint32_t> order_along_curve(std::span<const glm::dvec2> 
     Box box;
     for (const glm::dvec2 point : points) box.add(point);
     const double scale = points.empty() || !(box.longest() > 0) ? 0.0 : 0x1p32 / box.longest();
-    // The bits of x and y take turns.
+    // The bits of x and y alternate.
     const auto spread = [](std::uint64_t value) {
         value = (value | value << 16) & 0x0000ffff0000ffffU;
         value = (value | value << 8) & 0x00ff00ff00ff00ffU;
@@ -165,7 +165,7 @@ private:
     struct Group {
         std::size_t size = 0;
         Box box;
-        double reach = std::numeric_limits<double>::infinity();  // square of the distance of what may be near
+        double reach = std::numeric_limits<double>::infinity();  // square of the largest distance of a near point
         std::array<Entry, leaf_size> entries;
         std::array<std::array<double, count>, leaf_size> squares;       // of distances
         std::array<std::array<std::uint32_t, count>, leaf_size> found;  // places

@@ -45,7 +45,7 @@ public:
     std::uint32_t point(std::span<const std::int64_t> coordinates, glm::dvec2 place);
     /// The number of a known point, or no_number. An exact plane ignores `place`, another one `coordinates`.
     std::uint32_t find(const Cyclotomic::Number& coordinates, glm::dvec2 place) const;
-    /// Prepares an exact plane for a number of points, so that growing does not move them.
+    /// Reserves memory for a number of points in an exact plane.
     void expect_points(std::size_t points) { exact_points_.reserve(points); }
     std::size_t points() const { return is_exact() ? exact_points_.size() : points_.size(); }
     glm::dvec2 at(std::uint32_t point) const {

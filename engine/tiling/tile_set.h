@@ -103,7 +103,7 @@ class TileCollector {
 public:
     TileCollector(TilePlane& plane, TileSet& tiles, double most_corners, const Monitor& monitor);
     ~TileCollector();
-    /// Prepares for about that many polygons, so that growing does not move them.
+    /// Reserves memory for about that many polygons.
     void expect(double polygons);
     /// Adds a polygon; faults go to TileSet::violations. @throws BudgetError
     void add(std::span<const std::uint32_t> points, std::int32_t colour, bool is_closed);

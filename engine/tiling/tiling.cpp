@@ -107,9 +107,10 @@ void examine_pieces(TilingPatch& patch, CutSearch search, const TilingOptions& o
     if (result.has_border) result.most_colours = std::min(result.most_colours, 4);
 }
 
-/// If tiles do not overlap, it suffices to look for corners in few edges. They do not overlap if the pieces of these
-/// edges say so: the number of tiles around a point is the sum of the winding numbers of their outlines, and thus
-/// that of the border, in which paired sides cancel each other whether or not corners of other tiles lie on them.
+/// If tiles do not overlap, it suffices to look for corners in few edges. The pieces of these edges
+/// show whether they overlap: the number of tiles around a point is the sum of the winding numbers of their outlines,
+/// and thus that of the border, in which paired sides cancel each other whether or not corners of other tiles lie on
+/// them.
 void examine_pieces(TilingPatch& patch, const TilingOptions& options, TilingExamination& result) {
     if (patch.plane.is_exact()) {
         TilingExamination found = result;

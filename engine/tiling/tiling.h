@@ -99,7 +99,7 @@ struct TilingResult {
     TilingPatch patch;
 };
 
-/// Derives a word and examines its polygons, on all cores. Several threads use the monitor. Cost: about 2 s and
+/// Derives a word and examines its polygons on all cores. Several threads use the monitor. Cost: about 2 s and
 /// 500 MB for a million tiles.
 /// @throws BudgetError, WordError, Stopped; std::runtime_error if the drawing lies in space
 TilingResult examine_tiling(const Grammar& grammar, const TilingOptions& options);

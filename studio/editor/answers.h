@@ -15,10 +15,10 @@
 
 namespace sikku {
 
-/// How long drawings are measured for one answer.
+/// Time limit for measuring drawings for one answer.
 constexpr std::chrono::milliseconds measuring_time{500};
 
-/// A pattern as it is read to answer a request.
+/// A pattern that was read to answer a request.
 struct ReadPattern {
     /// @param name  path of the file, for messages and for files that the pattern names
     ReadPattern(const std::string& name, const std::string& text);

@@ -71,8 +71,8 @@ private:
 
 constexpr std::chrono::seconds checking_time{2};
 
-/// True for requests of the user, which are refused if the document is too large. Editors send the others by
-/// themselves, again and again, and would show each error.
+/// True for requests of the user, which are refused if the document is too large. Editors send the others
+/// automatically and often, and would show each error.
 bool is_of_user(std::string_view method) {
     static constexpr std::array methods = {"textDocument/prepareRename", "textDocument/rename",
                                            "textDocument/formatting"};

@@ -14,8 +14,8 @@ struct OpenDocument {
     std::string name;              ///< path of the file, for messages and for files that the pattern names
     std::string text;              ///< empty if it is too large
     std::size_t size = 0;          ///< bytes
-    bool is_changed = true;        ///< its errors have not been reported since
-    bool is_refusal_told = false;  ///< the user knows that it is too large
+    bool is_changed = true;        ///< since its errors were last reported
+    bool is_refusal_told = false;  ///< the user was informed that it is too large
     bool is_too_large() const { return size != text.size(); }
 };
 
@@ -42,7 +42,7 @@ private:
     std::size_t bytes_ = 0;  // of the texts that are kept
 };
 
-/// Says that a document is too large, which limits there are, and what reads it.
+/// A message that a document is too large, with the limits and the command that reads it.
 std::string too_large_text(const OpenDocument& document);
 
 }  // namespace sikku

@@ -1,5 +1,5 @@
-// What the editor asks the libraries about the text: the requests of the language server protocol, answered by the code
-// of `sikku lsp`.
+// The editor's requests to the libraries about the text: those of the language server protocol, answered by the code of
+// `sikku lsp`.
 import type { EditorState, Text } from "@codemirror/state";
 import type { Application } from "./application";
 import type { RequestOptions } from "./context";

@@ -91,7 +91,7 @@ const steps: Step[] = [
 
 interface Aim {
     label: string;
-    panels: string[]; // that belong to it: in others the guide gives way
+    panels: string[]; // in which the guide is shown
     begin(application: Application): void;
     text: string;
     acts: (application: Application) => [label: string, act: () => void][];

@@ -1,7 +1,7 @@
 // Pens of small pictures: a width in turtle steps vanishes where the drawing has many steps.
 import { joinedStroke, splitStroke } from "./stroke";
 
-/// The stroke of a drawing that is fitted into a square, if its pen would be thinner than `least`; null if it is not.
+/// The stroke of a drawing that is fitted into a square, if its pen would be thinner than `least`; else null.
 /// @param box  of the drawing in turtle steps: x0, y0, x1, y1
 /// @param room  side of the square in millimetres, without its margins
 /// @param least  millimetres

@@ -25,7 +25,7 @@ export function readLocked(text: string | undefined): string[] {
     return Array.isArray(names) && names.every((name) => typeof name === "string") ? [...new Set(names)] : [];
 }
 
-/// An arrangement that is played instead of the pattern; null if the text is none. Its name has no folders.
+/// An arrangement that is played instead of the pattern; null if the text is not one. Its name has no folders.
 export function readArrangement(text: string | undefined): ArrangementRequest | null {
     const { name, text: tables } = (parsed(text) ?? {}) as Partial<Record<keyof ArrangementRequest, unknown>>;
     const isName = typeof name === "string" && /^[^./\\\p{C}][^/\\\p{C}]{0,200}$/u.test(name);

@@ -47,7 +47,7 @@ struct Drawing {
     }
     PlotStrokes sorted() const { return sort_strokes(graph, given, {0, 0}, false, travel(given)); }
 
-    /// Travel of a walk that always goes to the nearest end or corner, found by looking at all.
+    /// Travel of a walk that always goes to the nearest end or corner, found by exhaustive search.
     double nearest_first() const {
         std::vector<bool> done(given.strokes.size());
         double sum = 0;

@@ -62,7 +62,7 @@ private:
     Json result_;
 };
 
-/// Messages come out as they were put in, wherever their bytes are divided.
+/// Messages are read as they were written, wherever their bytes are divided.
 inline void try_reader(const std::vector<std::string>& messages, std::string_view any_bytes) {
     std::string bytes;
     for (const std::string& message : messages) bytes += with_header(message);

@@ -350,7 +350,7 @@ TEST(Lsp, RefusesWhatIsNotAMessage) {
     EXPECT_EQ(converse(std::string(100'000, 'x')).outcome.status, 1);
 }
 
-/// What the user is told, in notifications.
+/// The messages shown to the user, in notifications.
 std::vector<std::string> told(const Conversation& talk) {
     std::vector<std::string> messages;
     for (const Json& each : talk.messages) {
@@ -380,7 +380,7 @@ TEST(Lsp, SaysThatADocumentIsTooLarge) {
     EXPECT_EQ(told(only), std::vector<std::string>{"/tmp/test.lsys: " + message});
 }
 
-/// Requests that editors send by themselves have no answer, which nobody needs to see. The user is told once.
+/// Requests that editors send automatically get an empty answer. The user is informed once.
 TEST(Lsp, IsSilentAboutDocumentsThatAreTooLarge) {
     const std::size_t limit = std::size_t{4} << 20U;
     std::string text = "axiom: F\n";
