@@ -290,7 +290,9 @@ private:
             return separate(byte);
         }
         const std::size_t begin = at_;
-        const auto is_letter = [](char letter) { return (letter >= 'a' && letter <= 'z') || is_beyond_ascii(letter); };
+        const auto is_letter = [](char letter) {
+            return (letter >= 'a' && letter <= 'z') || is_beyond_ascii(letter);
+        };
         while (at_ < text_.size() && is_letter(text_[at_])) ++at_;
         if (begin == at_) refuse(given_);
         read_word(std::string_view(text_).substr(begin, at_ - begin));
