@@ -99,7 +99,7 @@ const tests = {
         const page = await open("curves/hilbert");
         await current(page);
         await paste(page, "title: Nothing\naxiom: X\nX --> XX\nderivation length: 2\n");
-        await page.locator(".map-problem:visible", { hasText: /draw/i }).waitFor();
+        await page.locator(".map-word:visible", { hasText: "XXXX" }).waitFor();
         const before = await page.locator(".map-problem").textContent();
         await slow(page, { pixels: 1000 });
         const note = await paste(page, patternText("bush-3d"), () => document.querySelector(".map-problem").textContent);
@@ -107,6 +107,7 @@ const tests = {
         await page.locator(".map-problem:visible", { hasText: "Drawing…" }).waitFor();
         await current(page);
         await page.locator(".map-problem").waitFor({ state: "hidden" });
+        await page.locator(".map-word").waitFor({ state: "hidden" });
         await close(page);
     },
 
@@ -282,7 +283,7 @@ const tests = {
         const lilac = await labels();
         assert.equal(new Set(lilac).size, lilac.length, lilac.join());
         await paste(page, patternText("gourd"));
-        await page.locator(".cost", { hasText: "A map has no word" }).waitFor();
+        await page.locator(".cost", { hasText: /\d cells · [\d,]+ edges/ }).waitFor();
         assert.ok(!(await labels()).includes("angle"));
         await close(page);
     },
