@@ -35,6 +35,7 @@ else
 fi
 if command -v firefox-esr > /dev/null; then
     node studio/tests/firefox.mjs $page
+    [ -n "$quick" ] || node studio/tests/newcomers.mjs $page --firefox
 else
     echo "skipped: the page in Firefox (not installed)"
 fi

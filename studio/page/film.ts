@@ -32,7 +32,10 @@ const film_rate = 30;
 const pause = 1.5; // seconds that the last picture stays
 const longest_film = 60; // seconds
 const most_gif_pixels = 260e6; // of all pictures
-const types = ["video/webm;codecs=vp9,opus", "video/webm;codecs=vp8,opus", "video/webm", "video/mp4"];
+// Firefox never finishes a recording without sound whose type names a codec of sound.
+const silent_types = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm", "video/mp4"];
+const sounding_types = ["video/webm;codecs=vp9,opus", "video/webm;codecs=vp8,opus", "video/webm", "video/mp4"];
+const recording_patience = 10_000; // milliseconds after the end of a film
 
 /// Draws the picture of a film at a given time on a canvas; `seconds` is the length of the film.
 interface Film {
@@ -308,7 +311,7 @@ class FilmDialog {
     private async makeWebm(): Promise<[Uint8Array, string, string]> {
         const { signal } = this.stop;
         const film = await this.film(signal);
-        const type = types.find((each) => MediaRecorder.isTypeSupported(each));
+        const type = (film.sound ? sounding_types : silent_types).find((each) => MediaRecorder.isTypeSupported(each));
         if (!type) throw new Error("This browser cannot record films; save a GIF instead.");
         this.show(film, 0);
         const context = this.preview.getContext("2d")!;
@@ -348,7 +351,10 @@ class FilmDialog {
                 step();
             });
             recorder.stop();
-            await recorded;
+            const late = new Promise<void>((_, fail) => {
+                setTimeout(() => fail(new Error("The browser did not finish the recording; save a GIF instead.")), recording_patience);
+            });
+            await Promise.race([recorded, late]);
         } finally {
             for (const track of stream.getTracks()) track.stop();
             await audio?.close();
