@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t most_byte_symbols = 256;
 constexpr std::int64_t most_levels = 64;
-constexpr double least_expected = 1 << 16;                  // symbols; shorter words are not worth the preparation
+constexpr double least_expected = 1 << 17;                  // symbols; shorter words are not worth the preparation
 constexpr double least_growth = 8;                          // expected symbols for each one of the axiom
 constexpr std::size_t longest_beside = 20;                  // text before a symbol, after it, or alone
 constexpr std::size_t most_kinds = 4096;                    // at all levels together

@@ -17,6 +17,7 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <tuple>
 #include <vector>
 
 namespace sikku::parallel_words_test {
@@ -111,15 +112,15 @@ void expect_rewritten(const Grammar& grammar, std::size_t least, bool interprete
 }
 
 TEST(ParallelChance, MakesTheWordThatRewritingMakes) {
-    expect_rewritten(long_grammar(specimen, 11), 2'000'000);
+    expect_rewritten(long_grammar(specimen, 11), 3'000'000);
     expect_rewritten(long_grammar("seed: 7\n" + specimen, 10), 500'000);
     // Branches that end in brackets, so that the text behind a symbol grows with each step; deterministic symbols;
     // symbols that vanish.
-    expect_rewritten(long_grammar("axiom: A\nA --> F[B][A[A]] : 2\nA --> [[A]B]A : 1\nB --> BB\n", 17), 500'000);
+    expect_rewritten(long_grammar("axiom: A\nA --> F[B][A[A]] : 2\nA --> [[A]B]A : 1\nB --> BB\n", 15), 400'000);
     expect_rewritten(
         long_grammar(
             "axiom: XF\nX --> XYX : 3\nX --> YXZ : 2\nX --> : 1\nY --> ZZ\nZ --> F+F\nF --> F : 1\nF --> FX : 1\n",
-            15),
+            19),
         500'000);
     // Long texts beside symbols.
     expect_rewritten(long_grammar("axiom: A\nA --> ++++++++A-------A : 1\nA --> A[[[[[[[]]]]]]]A : 1\n", 16),
@@ -131,13 +132,14 @@ TEST(ParallelChance, MakesTheWordThatRewritingMakes) {
 
 TEST(ParallelChance, MakesTheWordOfTablesAndOfAHomomorphism) {
     const std::string text =
-        "axiom: AB\nderivation length: 14\nschedule: grow*3 rest grow*2 rest grow*7\ntable grow:\nA --> A[B]A : 1\nA --> AB : 2\nB --> BA : 1\n"
+        "axiom: AB\nderivation length: 16\nschedule: grow*3 rest grow*2 rest grow*9\ntable grow:\nA --> A[B]A : 1\nA "
+        "--> AB : 2\nB --> BA : 1\n"
         "B --> AFB : 1\ntable rest:\nB --> A : 1\nB --> BB : 1\n";
     const std::string drawn = "interpret:\nA --> F+F\nB --> F : 1\nB --> F[-F]F : 1\n";
     const Grammar grammar = grammar_of(text + drawn);
-    expect_rewritten(grammar, 50'000);
-    expect_rewritten(grammar, 100'000, true);
-    expect_rewritten(long_grammar(specimen + "interpret:\nF --> FF++FF\n", 11), 5'000'000, true);
+    expect_rewritten(grammar, 200'000);
+    expect_rewritten(grammar, 500'000, true);
+    expect_rewritten(long_grammar(specimen + "interpret:\nF --> FF++FF\n", 9), 400'000, true);
 }
 
 TEST(ParallelChance, MakesTheWordOfRandomSystems) {
@@ -153,10 +155,9 @@ TEST(ParallelChance, MakesTheWordOfRandomSystems) {
         std::string text = "seed: " + std::to_string(seed) + "\naxiom: A" + random_text(6) + " \n";
         for (const char letter : {'A', 'B', 'C', 'F'}) {
             if (letter != 'A' && dice.once_in(3)) continue;
-            for (std::size_t i = dice.below(4); i + 1 > 0; --i) {
+            for (std::size_t i = 1 + dice.below(4); i > 0; --i) {
                 text += std::string(1, letter) + " --> " + random_text(8) + (letter == 'A' ? "A" : "") + " : " +
                         std::to_string(dice.below(5) + 1) + "\n";
-                if (i == 0) break;
             }
         }
         std::int64_t steps = 1;
@@ -188,7 +189,7 @@ struct End {
 
 TEST(ParallelChance, EndsAtTheSameSymbol) {
     const Grammar endless = long_grammar(specimen, 40);
-    for (const double nodes : {1.0, 70'000.0, 1e6, 1.5e6, 3e6, 2e7}) {
+    for (const double nodes : {1.0, 70'000.0, 1e6, 3e6}) {
         std::set<End> ends, prints;
         for (const int threads : thread_counts) {
             on_threads(threads, [&] {
@@ -201,7 +202,7 @@ TEST(ParallelChance, EndsAtTheSameSymbol) {
                 EXPECT_TRUE(has(end.message, "deriving the word (n = 40) visits more nodes than the budget of"));
                 end.count = digest.count;
                 end.mixed = digest.mixed;
-                EXPECT_LT(static_cast<double>(end.count), nodes + 1);
+                EXPECT_LT(static_cast<double>(end.count), std::max(nodes, 1e5));
                 EXPECT_GT(static_cast<double>(end.count), nodes / 2 - 200'000);
                 ends.insert(end);
                 Print print(endless);
@@ -217,23 +218,26 @@ TEST(ParallelChance, EndsAtTheSameSymbol) {
     }
 }
 
+/// Accepts so many symbols.
+class Thrower : public Digest {
+public:
+    explicit Thrower(std::uint64_t most) : most_(most) {}
+    void symbols(const Run& run) override {
+        if (count + run.symbols.size() > most_) throw WordError("enough");
+        Digest::symbols(run);
+    }
+
+private:
+    std::uint64_t most_;
+};
+
 TEST(ParallelChance, StopsWhenTheReaderStops) {
     const Grammar endless = long_grammar(specimen, 40);
-    for (const std::uint64_t most : {0u, 100'000u, 700'000u, 5'000'000u}) {
+    for (const std::uint64_t most : {0u, 100'000u, 700'000u, 3'000'000u}) {
         std::set<End> ends;
         for (const int threads : thread_counts) {
             on_threads(threads, [&] {
-                class Thrower : public Digest {
-                public:
-                    explicit Thrower(std::uint64_t most) : most_(most) {}
-                    void symbols(const Run& run) override {
-                        if (count + run.symbols.size() > most_) throw WordError("enough");
-                        Digest::symbols(run);
-                    }
-
-                private:
-                    std::uint64_t most_;
-                } thrower(most);
+                Thrower thrower(most);
                 End end;
                 end.message = error_of<WordError>([&] { derive(endless, thrower); });
                 EXPECT_EQ(end.message, "enough");
@@ -280,29 +284,32 @@ TEST(ParallelContexts, MakeTheWordThatRewritingMakes) {
     expect_rewritten(long_grammar(signals, 48), 400'000);
     // Brackets that contexts see, that do not match, and that are ignored.
     expect_rewritten(
-        long_grammar("axiom: ]A[[B]A[\nA < A --> AB\nB > [ --> BA\nA > B --> [A]\n[ < B --> ]B[A\nB --> AB\n"
-                     "] < A > A -->\n",
-                     12),
+        long_grammar("axiom: ]A[[B]A[\nA < A --> AB\nB > A --> BA\nA > B --> [A]\nA < [ --> [B\nB --> ]AB[\n"
+                     "B < A > A -->\n",
+                     20),
         300'000);
     expect_rewritten(
         long_grammar("ignore: [+\naxiom: ]A[+B]A[\nA < A --> AB+\nB > A --> [BA]\nA < B > B --> [[A]\nB --> AB\n",
-                     15),
+                     25),
         300'000);
     // Long successors, and words that grow at once.
     expect_rewritten(
-        long_grammar("axiom: ABAB\nA < B --> " + std::string(200, 'A') + "B\nB --> A\nA > A --> BAB\n", 5), 300'000);
+        long_grammar("axiom: ABAB\nA < B --> " + std::string(200, 'A') + "B\nB --> A\nA > A --> BAB\n", 4), 300'000);
 }
 
 TEST(ParallelContexts, MakeTheWordOfSchedules) {
+    // A context of two symbols, and tables without contexts, among the others.
+    const std::string schedule = "look grow look*2 far grow look grow look*2 grow far look*7 grow*7";
     expect_rewritten(
-        grammar_of("axiom: AB\nderivation length: 14\nschedule: look grow look*2 far grow look grow look*2 grow far look*2\ntable look:\nA < B --> BA\nB > A --> AB\n"
-                   "B --> AA\ntable grow:\nA --> AB\nB --> A[B]\ntable far:\nA B < A --> BB\n"),
-        100'000);
+        grammar_of("axiom: AB\nderivation length: 26\nschedule: " + schedule +
+                   "\ntable look:\nA < B --> BA\nB > A --> AB\nB --> AA\ntable grow:\nA --> AB\nB --> A[B]\n"
+                   "table far:\nA B < A --> BB\n"),
+        300'000);
 }
 
 TEST(ParallelContexts, MakeTheWordOfRandomSystems) {
     int compared = 0;
-    for (unsigned seed = 0; seed < 150; ++seed) {
+    for (unsigned seed = 0; seed < 30; ++seed) {
         Dice dice(seed);
         const std::string letters = "ABC+[]";
         const auto letter = [&] { return std::string(1, letters[dice.below(letters.size())]); };
@@ -310,11 +317,14 @@ TEST(ParallelContexts, MakeTheWordOfRandomSystems) {
         text += "axiom: ABC";
         for (std::size_t i = dice.below(6); i > 0; --i) text += letter();
         text += " \n";
+        std::set<std::string> known = {"A", "B"};
         for (std::size_t i = 3 + dice.below(6); i > 0; --i) {
-            if (!dice.once_in(3)) text += letter() + " < ";
-            text += letter();
-            if (!dice.once_in(3)) text += " > " + std::string(1, "ABC+"[dice.below(4)]);
-            text += " --> ";
+            const auto neighbour = [&] { return std::string(1, "ABC+"[dice.below(4)]); };
+            std::string rule = dice.once_in(3) ? "" : neighbour() + " < ";
+            rule += letter();
+            if (!dice.once_in(3)) rule += " > " + neighbour();
+            if (!known.insert(rule).second) continue;
+            text += rule + " --> ";
             for (std::size_t k = dice.below(5); k > 0; --k) text += letter();
             text += " \n";
         }
@@ -335,7 +345,7 @@ TEST(ParallelContexts, MakeTheWordOfRandomSystems) {
         if (word.symbols.size() < 1'000'000) ++steps;
         expect_rewritten(long_grammar(text, steps), 1);
     }
-    EXPECT_GE(compared, 20);
+    EXPECT_GE(compared, 5);
 }
 
 TEST(ParallelContexts, RefuseTheSameWords) {
@@ -368,7 +378,7 @@ TEST(ParallelContexts, AreWatchedByTheThreadThatCalls) {
             std::uint64_t count = 0;
             options.watch = [&](std::uint64_t) {
                 EXPECT_EQ(std::this_thread::get_id(), here);
-                if (++count == 300) throw Stopped();
+                if (++count == 150) throw Stopped();
             };
             EXPECT_THROW(resolve_contexts(endless, options), Stopped);
         });
