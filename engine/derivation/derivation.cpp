@@ -36,7 +36,7 @@ public:
     /// @throws BudgetError
     bool rewrite(const Table& table, std::int64_t step) {
         NearestSteps& nearest = nearest_.try_emplace(&table, grammar_, table).first->second;
-        return nearest.is_usable() ? rewrite_bytes(nearest) : rewrite_modules(table, step);
+        return nearest.is_usable() ? rewrite_bytes(nearest, step) : rewrite_modules(table, step);
     }
 
     ModuleWord modules() && {
@@ -46,7 +46,7 @@ public:
     }
 
 private:
-    bool rewrite_bytes(NearestSteps& nearest) {
+    bool rewrite_bytes(NearestSteps& nearest, std::int64_t step) {
         if (!has_bytes_) {
             const Word& symbols = is_axiom_ ? grammar_.axiom() : modules_.symbols;
             bytes_.resize(symbols.size());
@@ -56,6 +56,8 @@ private:
             has_bytes_ = true;
             is_axiom_ = false;
         }
+        work_.begin_step(step, bytes_.size());
+        work_.add(bytes_.size());
         const std::uint64_t longest = longest_word(options_);
         const auto watch = [this] {
             if (options_.watch) options_.watch(0);

@@ -11,13 +11,13 @@ namespace sikku {
 namespace {
 
 constexpr std::size_t most_byte_symbols = 256;
-constexpr std::int64_t most_levels = 64;
-constexpr double least_expected = 1 << 17;                  // symbols; shorter words are not worth the preparation
-constexpr double least_growth = 8;                          // expected symbols for each one of the axiom
-constexpr std::size_t longest_beside = 20;                  // text before a symbol, after it, or alone
-constexpr std::size_t most_kinds = 4096;                    // at all levels together
-constexpr std::size_t most_entries = std::size_t{1} << 16;  // of the tables of a level
-constexpr double usual_root = 1 << 13;                      // symbols that become of a module at low(), on average
+constexpr std::int64_t most_drawn_levels = 64;
+constexpr double least_expected = 1 << 17;  // symbols; shorter words are not worth the preparation
+constexpr double least_growth = 8;          // expected symbols for each one of the axiom
+constexpr std::size_t longest_beside = 20;  // text before a symbol, after it, or alone
+constexpr std::size_t most_kinds = 4096;    // at all levels together
+constexpr std::size_t most_table_entries = std::size_t{1} << 16;  // of the tables of a level
+constexpr double usual_root = 1 << 13;  // symbols that become of a module at low(), on average
 constexpr Symbol no_symbol = std::numeric_limits<Symbol>::max();
 
 // Texts at level 1: of a kind, its successor, of the kind.
@@ -35,7 +35,7 @@ double probability(std::span<const std::uint64_t> begins, std::size_t alternativ
 DrawnLevels::DrawnLevels(const Grammar& grammar, const Levels& levels, std::string_view bytes)
     : grammar_(grammar), levels_(levels), bytes_(bytes) {
     if (grammar.is_parametric() || !grammar.is_stochastic() || grammar.symbols().size() > most_byte_symbols) return;
-    if (levels.count() < 1 || levels.count() > most_levels) return;
+    if (levels.count() < 1 || levels.count() > most_drawn_levels) return;
     for (std::int64_t level = 1; level <= levels.count(); ++level) {
         std::unique_ptr<Choices>& choices = choices_[&levels.table(level)];
         if (!choices) choices = std::make_unique<Choices>(grammar, levels.table(level));
@@ -134,7 +134,7 @@ bool DrawnLevels::add_alternatives(std::int64_t level) {
         if (is_kept(kind)) continue;
         drawn.alternatives = std::max(drawn.alternatives, choices(level).all(symbol_of(kind)).size());
     }
-    if (kinds.size() * drawn.alternatives > most_entries) return false;
+    if (kinds.size() * drawn.alternatives > most_table_entries) return false;
     std::vector<std::vector<Part>> parts;  // of each alternative
     for (const Kind& kind : kinds) {
         std::size_t count = 1;
@@ -154,7 +154,7 @@ bool DrawnLevels::add_alternatives(std::int64_t level) {
         if (level == 1) drawn.texts.resize(parts.size());
     }
     for (const std::vector<Part>& alternative : parts) drawn.most = std::max(drawn.most, alternative.size());
-    if (parts.size() * drawn.most > most_entries) return false;
+    if (parts.size() * drawn.most > most_table_entries) return false;
     drawn.children.resize(parts.size() * drawn.most);
     for (std::size_t i = 0; i < parts.size(); ++i) {
         drawn.counts.push_back(static_cast<std::uint32_t>(parts[i].size()));

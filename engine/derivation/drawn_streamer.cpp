@@ -77,7 +77,7 @@ DrawnModule* expand(const DrawnLevel& level, const DrawnModule* from, const Draw
 }
 
 /// A part of the word: consecutive modules, and what becomes of them.
-class DrawnPart {
+class WordPart {
 public:
     void clear() {
         roots_.clear();
@@ -174,7 +174,7 @@ public:
           takes_text_(takes_text) {}
 
     void stream() {
-        std::vector<DrawnPart> parts(1);
+        std::vector<WordPart> parts(1);
         const auto prepare = [&](std::size_t place) { return fill(parts[place]); };
         const auto work = [&](std::size_t place) { parts[place].expand_all(levels_, texts_); };
         const auto deliver = [&](std::size_t place) { hand_over(parts[place]); };
@@ -197,7 +197,7 @@ private:
     };
 
     /// Gathers the roots of the next part; false if nothing is left.
-    bool fill(DrawnPart& part) {
+    bool fill(WordPart& part) {
         part.clear();
         while (!part.is_full()) {
             if (!frames_.empty()) {
@@ -217,7 +217,7 @@ private:
         return !part.is_empty();
     }
 
-    void take(const DrawnModule& module, std::int64_t number, DrawnPart& part) {
+    void take(const DrawnModule& module, std::int64_t number, WordPart& part) {
         const DrawnLevel& level = levels_.level(number);
         if (number == levels_.low()) return part.add(module, level.means[module.kind]);
         part.add_node();
@@ -228,7 +228,7 @@ private:
         if (count > 0) frames_.push_back({first, first + count, level.base(module, place), number - 1});
     }
 
-    void hand_over(const DrawnPart& part) {
+    void hand_over(const WordPart& part) {
         const std::string_view text = part.text();
         visited_ += part.nodes();
         if (visited_ >= next_look_) look();

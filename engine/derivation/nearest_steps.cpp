@@ -11,7 +11,7 @@
 namespace sikku {
 namespace {
 
-constexpr std::size_t most_symbols = 128;
+constexpr std::size_t most_small_symbols = 128;
 constexpr std::size_t most_outcomes = std::size_t{1} << 15;
 constexpr std::size_t between_pauses = std::size_t{1} << 20;  // symbols of a thread
 constexpr std::size_t least_for_threads = std::size_t{1} << 18;
@@ -74,7 +74,7 @@ struct NearestSteps::Scan {
 
 NearestSteps::NearestSteps(const Grammar& grammar, const Table& table) {
     const std::size_t symbols = grammar.symbols().size();
-    if (!grammar.is_plain() || symbols > most_symbols || grammar.cut()) return;
+    if (!grammar.is_plain() || symbols > most_small_symbols || grammar.cut()) return;
     const ContextChoices choices(grammar, table);
     // Classes to the left are counted in rows of those to the right.
     const std::size_t rows = choices.rights(), row_size = choices.lefts() * rows;
