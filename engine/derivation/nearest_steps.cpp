@@ -24,6 +24,7 @@ void in_parallel(std::size_t size, const First& first, std::size_t other_size, c
                  const std::function<void()>& pause) {
     const bool are_long = size + other_size >= least_for_threads;
     for (std::size_t done = 0; done < std::max(size, other_size); done += between_pauses) {
+        if (done > 0) pause();
         const auto one = [&] {
             if (done < size) first(done, std::min(done + between_pauses, size));
         };
@@ -36,7 +37,6 @@ void in_parallel(std::size_t size, const First& first, std::size_t other_size, c
             one();
             two();
         }
-        pause();
     }
 }
 

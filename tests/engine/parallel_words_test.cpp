@@ -378,7 +378,7 @@ TEST(ParallelContexts, AreWatchedByTheThreadThatCalls) {
             std::uint64_t count = 0;
             options.watch = [&](std::uint64_t) {
                 EXPECT_EQ(std::this_thread::get_id(), here);
-                if (++count == 150) throw Stopped();
+                if (++count == 110) throw Stopped();
             };
             EXPECT_THROW(resolve_contexts(endless, options), Stopped);
         });
