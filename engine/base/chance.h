@@ -14,6 +14,13 @@ constexpr std::uint64_t scrambled(std::uint64_t bits) {
     return bits ^ (bits >> 31);
 }
 
+/// Returns the number of which scrambled() makes `bits`.
+constexpr std::uint64_t unscrambled(std::uint64_t bits) {
+    bits = (bits ^ (bits >> 31) ^ (bits >> 62)) * 0x319642B2D24D8EC3U;
+    bits = (bits ^ (bits >> 27) ^ (bits >> 54)) * 0x96DE1B173F119089U;
+    return bits ^ (bits >> 30) ^ (bits >> 60);
+}
+
 /// A sequence of pseudorandom numbers. Source: Steele, Lea & Flood 2014 (SplitMix64).
 class SplitMix {
 public:
@@ -31,10 +38,14 @@ private:
     std::uint64_t state_;
 };
 
+/// The number of which scrambled() makes the place of a child.
+constexpr std::uint64_t child_key(std::uint64_t parent, std::uint64_t index) {
+    return parent + 0x9E3779B97F4A7C15U * (index + 1);
+}
 /// Identifies a module's place in a derivation tree by its parent's place and its index among the children. A module
 /// that is not rewritten keeps its place.
 constexpr std::uint64_t child_place(std::uint64_t parent, std::uint64_t index) {
-    return scrambled(parent + 0x9E3779B97F4A7C15U * (index + 1));
+    return scrambled(child_key(parent, index));
 }
 /// Place of a module of the axiom.
 constexpr std::uint64_t axiom_place(std::uint64_t seed, std::uint64_t index) {

@@ -7,6 +7,7 @@
 #include <oneapi/tbb/parallel_invoke.h>
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
+#include <oneapi/tbb/task_group.h>
 
 #include <algorithm>
 #include <atomic>
@@ -87,6 +88,66 @@ void in_order(std::size_t count, std::size_t places, const std::function<void(st
         idle.push(item.place);
     });
     tbb::parallel_pipeline(places, begin & make & hand_on);
+}
+
+void hand_over_in_order(std::size_t places, int threads, const std::function<bool(std::size_t)>& prepare,
+                        const std::function<void(std::size_t)>& work,
+                        const std::function<void(std::size_t)>& deliver) {
+    const int allowed = std::min(threads, available_threads());
+    if (allowed < 2) {
+        while (prepare(0)) {
+            work(0);
+            deliver(0);
+        }
+        return;
+    }
+    enum State : int { idle, ready, taken, done };
+    std::vector<std::atomic<int>> states(places);
+    for (std::atomic<int>& state : states) state = idle;
+    const auto try_to_work = [&](std::size_t place) {
+        int expected = ready;
+        if (!states[place].compare_exchange_strong(expected, taken)) return;
+        work(place);
+        states[place] = done;
+        states[place].notify_all();
+    };
+    // In an arena of its own, a waiting thread takes up no other work of the program.
+    on_threads(allowed, [&] {
+        tbb::task_group group;
+        std::size_t prepared = 0;
+        std::size_t delivered = 0;
+        bool is_more = true;
+        try {
+            while (true) {
+                while (is_more && prepared - delivered < places) {
+                    const std::size_t place = prepared % places;
+                    is_more = prepare(place);
+                    if (!is_more) break;
+                    states[place] = ready;
+                    group.run([&try_to_work, place] { try_to_work(place); });
+                    ++prepared;
+                }
+                if (delivered == prepared) break;
+                const std::size_t place = delivered % places;
+                try_to_work(place);
+                // While another thread has this one, takes up those behind it.
+                for (std::size_t i = delivered + 1; i < prepared && states[place] != done; ++i)
+                    try_to_work(i % places);
+                for (int state = states[place]; state != done; state = states[place]) states[place].wait(state);
+                deliver(place);
+                states[place] = idle;
+                ++delivered;
+            }
+        } catch (...) {
+            for (std::atomic<int>& state : states) {
+                int expected = ready;
+                state.compare_exchange_strong(expected, idle);
+            }
+            group.wait();
+            throw;
+        }
+        group.wait();
+    });
 }
 
 }  // namespace sikku

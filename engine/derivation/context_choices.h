@@ -41,6 +41,9 @@ public:
         return std::span(list_).subspan(begin_[index], begin_[index + 1] - begin_[index]);
     }
     std::size_t size() const { return begin_.size() - 1; }
+    /// Numbers of classes.
+    std::size_t lefts() const { return lefts_; }
+    std::size_t rights() const { return rights_; }
 
 private:
     bool looks_at_nearest_ = true;

@@ -9,6 +9,7 @@
 #include <limits>
 #include <span>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 namespace sikku {
@@ -29,6 +30,10 @@ public:
     virtual void symbols(const Run& run) = 0;
     /// Called once after the last run.
     virtual void finish() {}
+    /// The byte that each symbol becomes, for readers that only put those together; empty for others. Parts of the
+    /// word may then be passed to text() and not to symbols().
+    virtual std::string_view bytes() const { return {}; }
+    virtual void text(std::string_view) {}
 };
 
 /// Thrown if the word would exceed the budget or the memory.

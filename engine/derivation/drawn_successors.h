@@ -49,6 +49,14 @@ public:
     }
     bool is_usable() const { return is_usable_; }
 
+    /// The successors of a symbol, and the least bits of Chance that choose the second one, the third one, …
+    std::span<const Successor> all(Symbol symbol) const {
+        return std::span(successors_).subspan(choices_[symbol].first, choices_[symbol].count);
+    }
+    std::span<const std::uint64_t> begins(Symbol symbol) const {
+        return std::span(begins_).subspan(choices_[symbol].first, choices_[symbol].count - 1);
+    }
+
     const Successor& of(Symbol symbol, const Chance& chance) const { return drawn(choices_[symbol], chance); }
 
     /// Writes the next step of a split successor, whose parent has that place, and at most `longest` symbols more.

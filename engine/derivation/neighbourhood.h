@@ -4,6 +4,7 @@
 #include "engine/derivation/context_choices.h"
 #include "engine/derivation/derivation.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -212,6 +213,11 @@ private:
     std::vector<std::uint32_t>& branch_;  // empty if no context looks into branches
     std::vector<std::uint32_t> ends_;     // ends of the branches in the context being matched
 };
+
+/// The most symbols of a word that is kept whole: places are counted in 32 bits.
+inline std::uint64_t longest_word(const DerivationOptions& options) {
+    return std::min<std::uint64_t>(options.longest_word, UINT32_MAX - 1);
+}
 
 /// Rewrites a word as the public function does, and counts the symbols compared in `work`.
 ModuleWord rewrite(const Grammar& grammar, const Table& table, const ModuleWord& given, std::int64_t step,

@@ -57,9 +57,7 @@ bool stands_at(const Word& predecessor, const Word& word, std::size_t at, Matchi
 /// Throws for words that are too long.
 class LengthLimit {
 public:
-    // Places are counted in 32 bits.
-    explicit LengthLimit(const DerivationOptions& options)
-        : longest_(std::min<std::uint64_t>(options.longest_word, UINT32_MAX - 1)) {}
+    explicit LengthLimit(const DerivationOptions& options) : longest_(longest_word(options)) {}
     void check(std::uint64_t size) const {
         if (size > longest_) throw BudgetError(fmt::format("the word has more than {} symbols", longest_));
     }

@@ -265,7 +265,16 @@ private:
 
 void stream_symbols(const Grammar& grammar, const Levels& levels, const DerivationOptions& options,
                     SymbolSink& sink) {
-    Streamer(grammar, levels, options, sink).stream(grammar.axiom());
+    if (levels.count() > 0 || options.pruner) {
+        Streamer(grammar, levels, options, sink).stream(grammar.axiom());
+        return;
+    }
+    const std::span<const Symbol> word(grammar.axiom());
+    for (std::size_t i = 0; i < word.size(); i += longest_run) {
+        const auto run = word.subspan(i, std::min(longest_run, word.size() - i));
+        sink.symbols({run, -1});
+        if (options.watch) options.watch(run.size());
+    }
 }
 
 }  // namespace sikku

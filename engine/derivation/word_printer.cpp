@@ -41,6 +41,11 @@ void WordPrinter::symbols(const Run& run) {
     if (buffer_.size() >= piece_bytes) flush();
 }
 
+void WordPrinter::text(std::string_view bytes) {
+    buffer_ += bytes;
+    if (buffer_.size() >= piece_bytes) flush();
+}
+
 void WordPrinter::finish() {
     buffer_ += '\n';
     flush();

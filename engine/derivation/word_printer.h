@@ -19,6 +19,8 @@ public:
 
     void symbols(const Run& run) override;
     void finish() override;
+    std::string_view bytes() const override { return are_bytes_ ? std::string_view(bytes_) : std::string_view(); }
+    void text(std::string_view bytes) override;
 
 private:
     void append(std::span<const Symbol> symbols, std::string& text) const;

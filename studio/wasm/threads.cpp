@@ -36,4 +36,13 @@ void in_order(std::size_t count, std::size_t /*places*/, const std::function<voi
     }
 }
 
+void hand_over_in_order(std::size_t /*places*/, int /*threads*/, const std::function<bool(std::size_t)>& prepare,
+                        const std::function<void(std::size_t)>& work,
+                        const std::function<void(std::size_t)>& deliver) {
+    while (prepare(0)) {
+        work(0);
+        deliver(0);
+    }
+}
+
 }  // namespace sikku

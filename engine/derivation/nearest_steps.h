@@ -1,0 +1,86 @@
+// engine/derivation/nearest_steps.h: rewrites whole words, a byte for each symbol, on two threads.
+#pragma once
+
+#include "engine/derivation/context_choices.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace sikku {
+
+/// Bytes that are not initialized, and not kept when they grow.
+class RawBytes {
+public:
+    std::uint8_t* data() { return bytes_.get(); }
+    const std::uint8_t* data() const { return bytes_.get(); }
+    std::size_t size() const { return size_; }
+    /// Afterwards, the contents are arbitrary.
+    void resize(std::size_t size);
+
+private:
+    std::unique_ptr<std::uint8_t[]> bytes_;
+    std::size_t size_ = 0;
+    std::size_t room_ = 0;
+};
+
+/// A word of at most 128 different symbols.
+using ByteWord = RawBytes;
+
+/// The steps of one table of a plain grammar, if its productions rewrite one symbol and look at most at the nearest
+/// one on each side. Memory: 1 byte for each symbol of a word, besides the words.
+class NearestSteps {
+public:
+    NearestSteps(const Grammar& grammar, const Table& table);
+    bool is_usable() const { return is_usable_; }
+
+    /// Returns the size of the next word, and writes it, unless it has more than `longest` symbols.
+    /// @param watch  called from time to time by the calling thread; may throw
+    std::uint64_t rewrite(const ByteWord& word, ByteWord& next, std::uint64_t longest,
+                          const std::function<void()>& watch);
+
+private:
+    /// How a scan goes on behind a symbol.
+    struct Turn {
+        std::uint8_t keep = 0;  ///< of the class that was seen last
+        std::uint8_t take = 0;  ///< of the class that was seen before the branch
+        std::uint8_t set = 0;   ///< class of the symbol itself
+        std::int8_t opens = 0;  ///< 1: a branch, from this side; -1: closes it
+    };
+    /// What becomes of a symbol: another one, or, from `first_text`, that text.
+    struct Outcome {
+        std::uint8_t code = 0;
+        std::uint8_t length = 1;
+    };
+    struct Text {
+        std::array<std::uint8_t, 8> begin{};  ///< the whole text, if it is not longer
+        std::uint32_t length = 1;
+        std::uint32_t pool = 0;
+    };
+    struct Scan;
+
+    /// Stores for the symbols in a part of the word what is seen on one side, or, if the other side is known, what
+    /// becomes of them.
+    template <bool to_left, bool is_second>
+    void look(Scan& scan, std::size_t begin, std::size_t end);
+    /// Writes what becomes of a part of the word, up to the end of its half. Returns the end of what is written.
+    std::uint8_t* write(std::size_t begin, std::size_t end, std::uint8_t* out, const std::uint8_t* out_end) const;
+
+    static constexpr std::uint8_t first_text = 128;
+    static constexpr std::size_t longest_text = 255;
+
+    bool is_usable_ = false;
+    std::vector<Turn> to_right_, to_left_;  // by symbol: from left to right, and from right to left
+    std::vector<std::uint32_t> rows_;       // by symbol: index of its outcomes
+    std::vector<Outcome> outcomes_;         // by row and the classes on both sides
+    std::array<Text, 256> texts_{};
+    std::vector<std::uint8_t> pool_;
+    const std::uint8_t* word_ = nullptr;
+    RawBytes marks_;  // of each symbol a class, and then its outcome
+};
+
+}  // namespace sikku
