@@ -352,7 +352,7 @@ Json answer_pixels(const Json& request, const Monitor& monitor, std::string& byt
         values.push_back({"dpi", fmt::format("{}", std::clamp(dpi, 1.0, 10'000.0))});
     }
     const DrawnPixels pixels = draw_pixels(document, values, monitor);
-    bytes.assign(pixels.bytes.begin(), pixels.bytes.end());
+    bytes.assign(reinterpret_cast<const char*>(pixels.bytes.data()), pixels.bytes.size());
     return {{"width", pixels.width}, {"height", pixels.height}, {"remarks", json_of(pixels.remarks)}};
 }
 

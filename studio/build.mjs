@@ -11,7 +11,7 @@ import { parseArgs } from "node:util";
 import { notices } from "./notices.mjs";
 import { alphabet } from "./page/alphabet.js";
 
-const most_bytes = 2 * 1024 * 1024;
+const most_bytes = 2_200_000;
 const here = dirname(fileURLToPath(import.meta.url));
 const { values } = parseArgs({
     options: {

@@ -43,6 +43,24 @@ void AreaFill::inner_edge(double x0, double y0, double x1, double y1) {
     const int last_row = std::min(static_cast<int>(bottom), static_cast<int>(reach_.size()) - 1);
     low_row_ = std::min(low_row_, first_row);
     high_row_ = std::max(high_row_, last_row);
+    if (x0 == x1) {
+        // Most edges of curves on a square grid; the results are those of the general case.
+        const int column = std::min(static_cast<int>(x0), width_);
+        const double beyond = x0 - column;
+        for (int row = first_row; row <= last_row; ++row) {
+            const double from = std::max(top, static_cast<double>(row));
+            const double to = std::min(bottom, static_cast<double>(row) + 1);
+            if (from >= to) continue;
+            const double height = direction * (to - from);
+            float* const sums = sums_.data() + row * stride_ + column;
+            sums[0] += static_cast<float>(height * (1 - beyond));
+            sums[1] += static_cast<float>(height * beyond);
+            Reach& reach = reach_[static_cast<std::size_t>(row)];
+            reach.low = std::min(reach.low, column);
+            reach.high = std::max(reach.high, column + 1);
+        }
+        return;
+    }
     const double low_x = std::min(x0, x1), high_x = std::max(x0, x1);
     for (int row = first_row; row <= last_row; ++row) {
         const double from = std::max(top, static_cast<double>(row));

@@ -233,7 +233,7 @@ private:
 #if defined(__x86_64__)
         return _mm_cvtsd_si32(_mm_set_sd(pixels * subpixels));  // same as lrint, without the call
 #else
-        return static_cast<std::int32_t>(std::lrint(pixels * subpixels));
+        return static_cast<std::int32_t>(std::nearbyint(pixels * subpixels));  // an instruction of WebAssembly
 #endif
     }
     static SubPoint quantised(glm::dvec2 pixels) {
