@@ -17,14 +17,14 @@ namespace {
 constexpr double letter_size = 5;
 constexpr double advance = 0.602 * letter_size;  // of the letters of the usual monospaced fonts
 constexpr double head_size = 3.4;                // letters of productions and labels
-constexpr double around = 10;                    // margin
+constexpr double word_around = 10;               // margin
 constexpr double below_baseline = 1.6, above_baseline = 4.6;
 
-constexpr const char* lit = "#b3452c";
-constexpr const char* ink = "#2a2622";
-constexpr const char* pale = "#8a8278";
-constexpr const char* thread = "#cfc7ba";
-constexpr const char* tint = "#f3dfd3";
+constexpr const char* lit_symbol_ink = "#b3452c";
+constexpr const char* symbol_ink = "#2a2622";
+constexpr const char* pale_symbol_ink = "#8a8278";
+constexpr const char* thread_ink = "#cfc7ba";
+constexpr const char* funnel_tint = "#f3dfd3";
 
 /// Collects the elements of a figure. Places are those of the figure's own corner.
 class WordCanvas {
@@ -53,19 +53,19 @@ public:
 
     /// The file, with a title and lines above the figure.
     std::string file(const WordFigure& figure) const {
-        double top = around;
+        double top = word_around;
         std::string head;
         double right = right_;
         const auto add = [&](std::string_view text, double size, const char* style) {
             top += 1.5 * size;
-            head += fmt::format("<text x=\"{}\" y=\"{}\" class=\"{}\">{}</text>\n", number(around),
+            head += fmt::format("<text x=\"{}\" y=\"{}\" class=\"{}\">{}</text>\n", number(word_around),
                                 number(top - 0.3 * size), style, xml_escaped(text));
             right = std::max(right, 0.62 * size * static_cast<double>(text_columns(text)));
         };
         if (!figure.title.empty()) add(figure.title, 6, "title");
         for (const std::string& line : figure.lines) add(line, head_size, "rule");
-        if (top > around) top += 5;
-        const std::string width = number(right + 2 * around), height = number(top + bottom_ + around);
+        if (top > word_around) top += 5;
+        const std::string width = number(right + 2 * word_around), height = number(top + bottom_ + word_around);
         std::string file = fmt::format(
             "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
             "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:sikku=\"{}\"\n"
@@ -84,12 +84,12 @@ public:
             ".rule {{ font-size: {}px; white-space: pre }}\n.title {{ font-family: 'DejaVu Sans', Helvetica, Arial, "
             "sans-serif; "
             "font-size: 6px; font-weight: bold }}\n</style>\n",
-            letter_size, ink, lit, pale, head_size, pale, head_size);
+            letter_size, symbol_ink, lit_symbol_ink, pale_symbol_ink, head_size, pale_symbol_ink, head_size);
         file += fmt::format("<rect width=\"{}\" height=\"{}\" fill=\"#ffffff\"/>\n{}", width, height, head);
         file += fmt::format(
             "<g transform=\"translate({} {})\">\n<g fill=\"{}\">\n{}</g>\n"
             "<g fill=\"none\" stroke-width=\"0.35\" stroke-linecap=\"round\">\n{}</g>\n{}</g>\n</svg>\n",
-            number(around), number(top), tint, areas_, lines_, texts_);
+            number(word_around), number(top), funnel_tint, areas_, lines_, texts_);
         return file;
     }
 
@@ -207,7 +207,7 @@ std::string words_svg(const WordTable& table, const WordFigure& figure) {
                 canvas.funnel(x(symbol.column), x(last.column + last.width), top, x(first_child.column),
                               x(last_child.column + last_child.width), bottom);
             } else {
-                canvas.line(middle(symbol), top + 0.8, middle(first_child), bottom - 0.8, thread);
+                canvas.line(middle(symbol), top + 0.8, middle(first_child), bottom - 0.8, thread_ink);
             }
         }
     }
@@ -248,7 +248,7 @@ std::string tree_svg(const WordTable& table, const WordFigure& figure) {
             const double at = left + places[begins[r] + i];
             canvas.text(at, baseline, symbol.text, style_of(symbol));
             const TableSymbol& source = row[owner];
-            const char* colour = symbol.is_replaced ? lit : thread;
+            const char* colour = symbol.is_replaced ? lit_symbol_ink : thread_ink;
             for (std::size_t k = 0; k < source.children; ++k) {
                 canvas.line(at, top + 0.5, left + places[begins[r + 1] + source.first_child + k], bottom - 0.5,
                             colour);
