@@ -144,6 +144,9 @@ constexpr Rule product_rules[] = {
      {{framing, place, scale, tiling, copies, sheets, "dot-spacing"}},
      "each side of a production is scaled to fill its place on the page"},
     {when::rule, {{kolam, extras, file}}, "productions are drawn plainly, without additions"},
+    {when::rule,
+     {{"line", "hand", "dots", "weave", "parallel", "fields", "powders", "tile-colours", "tile-edges", "decorate"}},
+     "productions are drawn plainly, as straight lines and single tiles"},
     {when::rule, {{"travel", "resume"}}, "does not apply to the plot of a sheet of drawings"},
 
     {when::highlighted,

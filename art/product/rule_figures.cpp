@@ -23,6 +23,7 @@ namespace sikku {
 namespace {
 
 constexpr std::size_t most_figures = 24;
+constexpr double dot_share = 0.03, letter_share = 0.1;  // of the size of a drawing
 
 /// A production of the file with a word that it replaces and its successor, if they are known.
 struct ShownProduction {
@@ -355,7 +356,7 @@ private:
         if (!shows_before && !shows_after && !(has_nodes && has(after, steps))) return std::nullopt;
         RuleFigure figure{shown.before, shown.after, nullptr, nullptr};
         if (grammar_.is_spatial()) {
-            const double size = std::max(spatial_size(after), 1.0);
+            const double seen = spatial_size(after), size = seen > 0 ? seen : 1.0;
             figure.predecessor = decorated(before, size, nullptr, 1, 0);
             figure.successor = decorated(after, size, nullptr, 1, 0);
             return figure;
@@ -439,9 +440,9 @@ private:
             }
             built.add(Action::push);
             built.add(Action::colour_set, letter_colour_);
-            built.add(Action::disc, 0.018 * size);
-            built.turn(90);
-            built.add(Action::move, 0.1 * size);
+            built.add(Action::disc, dot_share * size);
+            built.turn(135);  // away from lines that are straight or turn at right angles
+            built.add(Action::move, letter_share * size);
             built.add(Action::width_set, letter_width(size));
             built.add(symbol);
             built.add(Action::pop);
@@ -454,8 +455,8 @@ private:
                                            const Survey& to) const {
         CommandWord built(word);
         built.rectangle(tile, heading(), letter_colour_ + 1);
-        built.dot({0, 0}, heading(), 0.018 * size, letter_colour_);
-        built.dot(to.end, heading(), 0.018 * size, letter_colour_);
+        built.dot({0, 0}, heading(), dot_share * size, letter_colour_);
+        built.dot(to.end, heading(), dot_share * size, letter_colour_);
         built.add(Action::colour_set, letter_colour_);
         double direction = heading();
         built.move((tile.low + tile.high) / 2.0, direction, false);
@@ -468,13 +469,15 @@ private:
     double letter_width(double size) const {
         constexpr double of_page = 190;  // millimetres that a drawing fills on A4
         const double share = 0.011;
-        return style_.stroke.in_steps ? share * size / style_.stroke.unit : share * of_page / style_.stroke.unit;
+        if (!style_.stroke.in_steps) return share * of_page / style_.stroke.unit;
+        // Wide lines are made narrower, and letters with them.
+        return std::max(1.4 * share * size, 0.25 * style_.stroke.value) / style_.stroke.unit;
     }
 
     /// The settings of the pattern, with letters in proportion to a size.
     std::shared_ptr<const Grammar> lettered(double size) const {
-        const Document document =
-            document_.with({Setting("rule", "lettering", fmt::format("{:.6f}", std::clamp(0.08 * size, 1e-6, 1e6)))});
+        const Document document = document_.with(
+            {Setting("rule", "lettering", fmt::format("{:.6f}", std::clamp(letter_share * size, 1e-6, 1e6)))});
         return std::make_shared<const Grammar>(*document.grammar().written_out({}));
     }
 

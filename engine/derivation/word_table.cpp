@@ -109,6 +109,10 @@ public:
                 symbol.column = symbol.is_joined
                                     ? rows_[task.row].symbols[i - 1].column + rows_[task.row].symbols[i - 1].width
                                     : task.column + (width - joined_width(task.row, i)) / 2;
+                if (symbol.is_joined) {
+                    symbol.begin = symbol.column;
+                    symbol.end = symbol.column + symbol.width;
+                }
                 symbol.leaf = task.leaf;
                 if (symbol.children > 0) {
                     const std::size_t below = span(task.row + 1, symbol.first_child, symbol.children);
