@@ -442,7 +442,7 @@ private:
             built.add(Action::colour_set, letter_colour_);
             built.add(Action::disc, dot_share * size);
             built.turn(135);  // away from lines that are straight or turn at right angles
-            built.add(Action::move, letter_share * size);
+            built.add(Action::move, 1.4 * letter_share * size);
             built.add(Action::width_set, letter_width(size));
             built.add(symbol);
             built.add(Action::pop);
