@@ -61,7 +61,7 @@ TEST(DeriveWords, RefusesWithAReason) {
         {{"--generations", "900000:900001"}, 1, "symbols"},
         {{"--generations", "0:5", "-n", "3"}, 2, "cannot be combined with a derivation length"},
         {{"--generations", "0:5", "--format", "pdf"}, 2, "expected text, markdown, latex or svg"},
-        {{"--generations", "0:4"}, 1, "--wrap 100"},
+        {{"--generations", "0:5"}, 1, "--wrap 100"},
         {{"--generations", "0:4", "--format", "latex"}, 1, "columns"},
         {{"--tree", "--format", "text"}, 2, "a tree is SVG"},
         {{"--tree", "-n", "30"}, 1, "a tree has at most 2000"},
