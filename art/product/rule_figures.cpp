@@ -23,7 +23,7 @@ namespace sikku {
 namespace {
 
 constexpr std::size_t most_figures = 24;
-constexpr double dot_share = 0.03, letter_share = 0.1;  // of the size of a drawing
+constexpr double node_share = 0.03, letter_share = 0.1;  // of the size of a drawing
 
 /// A production of the file with a word that it replaces and its successor, if they are known.
 struct ShownProduction {
@@ -84,7 +84,7 @@ bool has_modules(const Grammar& grammar, const Word& word) {
 }
 
 /// The symbols from `begin` to `end` of a word, with their parameters.
-ModuleWord part_of(const Grammar& grammar, const ModuleWord& word, std::size_t begin, std::size_t end) {
+ModuleWord module_part(const Grammar& grammar, const ModuleWord& word, std::size_t begin, std::size_t end) {
     ModuleWord part;
     std::size_t argument = 0;
     for (std::size_t i = 0; i < end; ++i) {
@@ -144,10 +144,10 @@ void find_applications(const Grammar& grammar, std::vector<ShownProduction>& lis
                 if (found != missing.end()) {
                     const auto first = std::lower_bound(origins.parents.begin(), origins.parents.end(), at);
                     const auto last = std::upper_bound(origins.parents.begin(), origins.parents.end(), at);
-                    found->second->predecessor = part_of(grammar, word, at, end);
+                    found->second->predecessor = module_part(grammar, word, at, end);
                     found->second->successor =
-                        part_of(grammar, next, static_cast<std::size_t>(first - origins.parents.begin()),
-                                static_cast<std::size_t>(last - origins.parents.begin()));
+                        module_part(grammar, next, static_cast<std::size_t>(first - origins.parents.begin()),
+                                    static_cast<std::size_t>(last - origins.parents.begin()));
                     missing.erase(found);
                 }
                 at = end - 1;
@@ -440,7 +440,7 @@ private:
             }
             built.add(Action::push);
             built.add(Action::colour_set, letter_colour_);
-            built.add(Action::disc, dot_share * size);
+            built.add(Action::disc, node_share * size);
             built.turn(135);  // away from lines that are straight or turn at right angles
             built.add(Action::move, 1.4 * letter_share * size);
             built.add(Action::width_set, letter_width(size));
@@ -455,8 +455,8 @@ private:
                                            const Survey& to) const {
         CommandWord built(word);
         built.rectangle(tile, heading(), letter_colour_ + 1);
-        built.dot({0, 0}, heading(), dot_share * size, letter_colour_);
-        built.dot(to.end, heading(), dot_share * size, letter_colour_);
+        built.dot({0, 0}, heading(), node_share * size, letter_colour_);
+        built.dot(to.end, heading(), node_share * size, letter_colour_);
         built.add(Action::colour_set, letter_colour_);
         double direction = heading();
         built.move((tile.low + tile.high) / 2.0, direction, false);

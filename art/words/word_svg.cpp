@@ -15,9 +15,9 @@ namespace {
 
 // Lengths are millimetres.
 constexpr double letter_size = 5;
-constexpr double advance = 0.602 * letter_size;  // of the letters of the usual monospaced fonts
-constexpr double head_size = 3.4;                // letters of productions and labels
-constexpr double word_around = 10;               // margin
+constexpr double letter_advance = 0.602 * letter_size;  // of the letters of the usual monospaced fonts
+constexpr double head_size = 3.4;                       // letters of productions and labels
+constexpr double word_around = 10;                      // margin
 constexpr double below_baseline = 1.6, above_baseline = 4.6;
 
 constexpr const char* lit_symbol_ink = "#b3452c";
@@ -106,7 +106,7 @@ private:
     double right_ = 0, bottom_ = 0;
 };
 
-const char* style_of(const TableSymbol& symbol) {
+const char* class_of_symbol(const TableSymbol& symbol) {
     return symbol.is_cut ? "c" : symbol.is_replaced ? "l" : "s";
 }
 
@@ -180,9 +180,9 @@ std::string words_svg(const WordTable& table, const WordFigure& figure) {
     constexpr double pitch = 15;
     WordCanvas canvas;
     const double left = write_labels(table, pitch, canvas);
-    const auto x = [&](std::size_t column) { return left + advance * static_cast<double>(column); };
+    const auto x = [&](std::size_t column) { return left + letter_advance * static_cast<double>(column); };
     const auto middle = [&](const TableSymbol& symbol) {
-        return left + advance * (static_cast<double>(symbol.column) + static_cast<double>(symbol.width) / 2);
+        return left + letter_advance * (static_cast<double>(symbol.column) + static_cast<double>(symbol.width) / 2);
     };
     for (std::size_t r = 0; r < table.rows.size(); ++r) {
         const std::vector<TableSymbol>& row = table.rows[r].symbols;
@@ -190,7 +190,7 @@ std::string words_svg(const WordTable& table, const WordFigure& figure) {
         const double top = baseline + below_baseline, bottom = baseline + pitch - above_baseline;
         for (std::size_t i = 0; i < row.size(); ++i) {
             const TableSymbol& symbol = row[i];
-            canvas.text(middle(symbol), baseline, symbol.text, style_of(symbol));
+            canvas.text(middle(symbol), baseline, symbol.text, class_of_symbol(symbol));
             if (symbol.replaced == 0) continue;
             const TableSymbol& last = row[i + std::max<std::size_t>(symbol.replaced, 1) - 1];
             if (symbol.children == 0) {
@@ -224,8 +224,8 @@ std::string tree_svg(const WordTable& table, const WordFigure& figure) {
         begins.push_back(nodes.size());
         const std::size_t below = nodes.size() + row.symbols.size();
         for (const TableSymbol& symbol : row.symbols) {
-            nodes.push_back(
-                {below + symbol.first_child, symbol.children, advance * static_cast<double>(symbol.width) + space});
+            nodes.push_back({below + symbol.first_child, symbol.children,
+                             letter_advance * static_cast<double>(symbol.width) + space});
         }
     }
     const std::vector<double> places = tidy_places(nodes);
@@ -246,7 +246,7 @@ std::string tree_svg(const WordTable& table, const WordFigure& figure) {
             const TableSymbol& symbol = row[i];
             if (symbol.replaced > 0) owner = i;
             const double at = left + places[begins[r] + i];
-            canvas.text(at, baseline, symbol.text, style_of(symbol));
+            canvas.text(at, baseline, symbol.text, class_of_symbol(symbol));
             const TableSymbol& source = row[owner];
             const char* colour = symbol.is_replaced ? lit_symbol_ink : thread_ink;
             for (std::size_t k = 0; k < source.children; ++k) {
