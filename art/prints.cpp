@@ -91,8 +91,8 @@ struct Product {
     std::unique_ptr<PrintWork> (*plan)(PrintRequest request);
 };
 constexpr Product products[] = {
-    {when::model, plan_model},   {when::division, plan_division}, {when::grown, plan_growth},
-    {when::lesson, plan_lesson}, {when::row, plan_row},           {when::always, plan_one},
+    {when::model, plan_model},   {when::rule, plan_rule}, {when::division, plan_division}, {when::grown, plan_growth},
+    {when::lesson, plan_lesson}, {when::row, plan_row},   {when::always, plan_one},
 };
 
 /// @throws SettingError, PatternError

@@ -57,6 +57,7 @@ constexpr Rule relief_rules[] = {
     {when::no_relief, {{solid}}, "applies only to reliefs; needs 'relief' or STL"},
     {when::flat_relief, {{solid}}, "a relief is STL, OBJ or glTF"},
     {when::relief, {{sheets}}, "a relief can be cut in the program that prints it"},
+    {when::relief, {{"rule"}}, "a relief is one solid, not a sheet of productions"},
     {when::relief, {{lesson}}, "a lesson has several pages; a relief is one solid"},
     {when::relief_row, {{"generations"}}, "a relief is one solid; 'frames' makes one of each generation"},
     {when::relief, {{"kerf"}}, uncut},
@@ -135,6 +136,26 @@ constexpr Rule product_rules[] = {
     {when::colouring, {{lesson, "divide"}}, "a colouring page shows the whole drawing at once"},
     {when::animated_colouring, {{"colouring"}}, "a colouring page is printed; a .gif is shown on screens"},
 
+    {when::gif, {{"rule"}}, "the productions are one picture, not an animation"},
+    {when::rule,
+     {{"highlight", "generations", "divide", lesson}},
+     "cannot be combined with 'rule', which draws productions instead of words"},
+    {when::rule,
+     {{framing, place, scale, tiling, copies, sheets, "dot-spacing"}},
+     "each side of a production is scaled to fill its place on the page"},
+    {when::rule, {{kolam, extras, file}}, "productions are drawn plainly, without additions"},
+    {when::rule,
+     {{"line", "hand", "dots", "weave", "parallel", "fields", "powders", "tile-colours", "tile-edges", "decorate"}},
+     "productions are drawn plainly, as straight lines and single tiles"},
+    {when::rule, {{"travel", "resume"}}, "does not apply to the plot of a sheet of drawings"},
+
+    {when::highlighted,
+     {{"generations", "divide", lesson, "fill-page", "swatch"}},
+     "cannot be combined with 'highlight', which lights a step of one derivation length"},
+    {when::highlighted,
+     {{"colouring", "colour-by", "palette", "fill", "fields", "powders", "tile-colours", "decorate"}},
+     "cannot be combined with 'highlight', which has its own colours"},
+
     {when::plot, {{lesson}}, "a lesson has colours, numbers and several steps; a plot is one drawing"},
     {when::one_page, {{lesson}}, "a lesson has several pages; an {format} has one"},
     {when::lesson, {{"border"}}, "a lesson teaches the lines of the kolam; a border is not one of them"},
@@ -147,6 +168,7 @@ constexpr Rule product_rules[] = {
 };
 constexpr Rule map_rules[] = {
     {when::always, {{kolam, lesson}}, "applies to the lines of a turtle, and a map has none"},
+    {when::always, {{"rule", "highlight"}}, "applies to words, and a map has none"},
     {when::always, {{"divide"}}, "a .gif of a map always shows how cells divide"},
 };
 constexpr const char* no_plane =

@@ -120,6 +120,24 @@ void set_generations(DrawSettings& settings, const std::string& text) {
     settings.time.generations = {first, last};
 }
 
+/// Parses `STEP` or `STEP:N`.
+void set_highlight(DrawSettings& settings, const std::string& text) {
+    const std::size_t colon = text.find(':');
+    const auto whole = [&](std::string_view part) {
+        std::uint64_t value = 0;
+        const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
+        if (error != std::errc() || end != part.data() + part.size() || value < 1 || value > INT64_MAX) {
+            refuse_option("highlight", text,
+                          "expected a step such as 2, or with one of the symbols that it replaces, 2:5; both from 1");
+        }
+        return value;
+    };
+    Highlight highlight;
+    highlight.step = static_cast<std::int64_t>(whole(std::string_view(text).substr(0, colon)));
+    if (colon != std::string::npos) highlight.symbol = whole(std::string_view(text).substr(colon + 1));
+    settings.look.highlight = highlight;
+}
+
 /// Parses `SPACING`, followed by `ANGLE` and `cross` in either order.
 void set_hatch(DrawSettings& settings, const std::string& text) {
     Hatch& hatch = settings.plot.hatch.emplace();
@@ -493,6 +511,22 @@ const std::array own_rows = {
                .group = kolams,
                .scope = Scope::kolam},
               [](S& s, Text t) { set_word("colour-by", "strand", t, s.look.colours_strokes); }},
+    Option<S>{
+        {.name = "highlight",
+         .help = "colour what each symbol that step STEP replaced has become, with six colours in turn, or only "
+                 "the Nth of them; the rest is pale; not of maps",
+         .value = "STEP[:N]",
+         .group = kolams,
+         .scope = Scope::look},
+        set_highlight},
+    Option<S>{{.name = "rule",
+               .help = "draw each production instead of the word: what it replaces, an arrow, and what replaces it; "
+                       "a letter that draws nothing itself is a tile; not of maps and models",
+               .group = kolams,
+               .scope = Scope::time,
+               .kind = flag,
+               .is_alone = true},
+              [](S& s, Text t) { s.time.shows_rule = is_true(t); }},
     Option<S>{{.name = "generations",
                .help = "derivation lengths A to B: side by side on one sheet, or one after the other in a .gif",
                .value = "A:B",

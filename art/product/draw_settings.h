@@ -47,17 +47,25 @@ struct PlaceSettings {
     glm::dvec2 swatch_stretch{1.0};        ///< scale across and down that gives the swatch whole pixels
 };
 
-/// Contents of the drawing, and values for keys of the pattern. An empty `title_line` stands for the pattern's title.
-struct LookSettings : DrawingSettings {
-    std::string view;                   ///< value for `view:`; empty: the pattern's
-    std::string light;                  ///< value for `light:`; empty: the pattern's
-    std::optional<std::string> dots;    ///< value for `dots:`; empty: default size and colour
-    std::optional<std::string> border;  ///< value for `border:`
-    std::string font_name;              ///< font of the texts around the drawing; empty: single strokes
+/// A step of the derivation whose work is lit.
+struct Highlight {
+    std::int64_t step = 1;                ///< from 1 to the derivation length
+    std::optional<std::uint64_t> symbol;  ///< lights only what this one of the symbols it replaces became; from 1
 };
 
-/// Several derivation lengths, and what moves.
+/// Contents of the drawing, and values for keys of the pattern. An empty `title_line` stands for the pattern's title.
+struct LookSettings : DrawingSettings {
+    std::string view;                      ///< value for `view:`; empty: the pattern's
+    std::string light;                     ///< value for `light:`; empty: the pattern's
+    std::optional<std::string> dots;       ///< value for `dots:`; empty: default size and colour
+    std::optional<std::string> border;     ///< value for `border:`
+    std::string font_name;                 ///< font of the texts around the drawing; empty: single strokes
+    std::optional<Highlight> highlight{};  ///< lights the parts that one step made
+};
+
+/// Several derivation lengths, what moves, and productions side by side.
 struct TimeSettings {
+    bool shows_rule = false;                                           ///< draw each production instead of the word
     std::optional<std::pair<std::int64_t, std::int64_t>> generations;  ///< derivation lengths, first and last
     bool frames = false;                                               ///< write each generation to its own file
     std::optional<double> frame_time;  ///< display time of each generation in an animation

@@ -3,6 +3,7 @@
 #include "art/image/image_file.h"
 #include "art/motion/lesson.h"
 #include "art/motion/motion_cost.h"
+#include "art/product/cell_rows.h"
 #include "art/product/plot_remarks.h"
 #include "art/product/print_cell.h"
 #include "art/product/print_work.h"
@@ -13,7 +14,6 @@
 #include <string>
 
 namespace sikku {
-namespace {
 
 SheetOptions row_options(const Print& print, const DrawOptions& drawing) {
     SheetOptions sheet;
@@ -30,19 +30,21 @@ SheetOptions row_options(const Print& print, const DrawOptions& drawing) {
     return sheet;
 }
 
-/// Draws cells side by side.
-void make_row(const std::vector<SheetCell>& cells, SheetOptions sheet, const DrawOptions& options,
-              Destination& destination, const std::filesystem::path& name, Made& made) {
+SheetLayout make_row(const std::vector<SheetCell>& cells, SheetOptions sheet, const DrawOptions& options,
+                     Destination& destination, const std::filesystem::path& name, Made& made, bool has_faint_inks) {
     if (!sheet.press.cmyk.empty()) check_cmyk_profile(sheet.press.cmyk);
     sheet.threads = options.threads;
     sheet.monitor = options.monitor;
     sheet.watch = options.watch;
-    const SheetLayout layout = draw_sheet(cells, sheet, name, destination);
+    SheetLayout layout = draw_sheet(cells, sheet, name, destination);
     warn_of_letters(layout.letters_warning, made);
     std::vector<FaintInk> faint;
     for (const DrawReport& drawn : layout.reports) faint.insert(faint.end(), drawn.faint.begin(), drawn.faint.end());
-    warn_of_faint_inks(faint, made);
+    if (!has_faint_inks) warn_of_faint_inks(faint, made);
+    return layout;
 }
+
+namespace {
 
 class GenerationRow : public PrintWork {
 public:
@@ -99,7 +101,8 @@ private:
             made.warn(faint_text({FaintInk::Kind::lines, style.line_colour({}), *style.ground}));
         }
         if (info(format()).kind == FormatKind::pixels) {
-            return make_row(cells(options), row_options(print(), drawing()), options, destination, name, made);
+            make_row(cells(options), row_options(print(), drawing()), options, destination, name, made);
+            return;
         }
         LessonOptions lesson;
         lesson.seconds = *settings().time.lesson * 2 / 3;

@@ -63,6 +63,8 @@ constexpr PrintKind animated_colouring = [](const S& s, Format f) { return s.loo
 constexpr PrintKind solid_colouring = [](const S& s, Format f) {
     return s.look.colouring && (is_model(s, f) || is_relief(s, f));
 };
+constexpr PrintKind rule = [](const S& s, Format) { return s.time.shows_rule; };
+constexpr PrintKind highlighted = [](const S& s, Format) { return s.look.highlight.has_value(); };
 /// Derivation lengths one after the other, or in a file each.
 constexpr PrintKind grown = [](const S& s, Format f) {
     return s.time.frames || (f == Format::gif && !s.time.lesson);

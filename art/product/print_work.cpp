@@ -3,6 +3,7 @@
 #include "art/drawing/drawing.h"
 #include "art/drawing/word_drawing.h"
 #include "art/product/border_files.h"
+#include "art/product/highlight.h"
 #include "art/product/plot_remarks.h"
 #include "art/writer/picture.h"
 #include "engine/derivation/forecast.h"
@@ -183,6 +184,7 @@ Made PrintWork::make(Destination& destination, const std::filesystem::path& name
         std::all_of(tables.begin(), tables.end(), [](const Table& table) { return table.productions().empty(); })) {
         made.warn_of_unused("generations", "the pattern has no productions");
     }
+    if (settings_.look.highlight) light_up(monitor, made);
     options.begin = [&](int passes) { monitor.expect(passes * expected_symbols(document_.grammar(), true)); };
     make_product(destination, name, options, made);
     const bool is_spatial = document_.grammar().is_spatial();
@@ -193,6 +195,14 @@ Made PrintWork::make(Destination& destination, const std::filesystem::path& name
 } catch (const NothingDrawn& error) {
     throw std::runtime_error(error.what() +
                              (no_steps().empty() ? undrawn_hint(document_.grammar()) : "; " + no_steps()));
+}
+
+void PrintWork::light_up(const Monitor& monitor, Made& made) {
+    LitDrawing lit =
+        lit_drawing(document_.grammar(), print_.style, *settings_.look.highlight, settings_.work.budget, monitor);
+    lit_ = std::move(lit.grammar);
+    print_.style = std::move(lit.style);
+    made.fact(std::move(lit.fact));
 }
 
 void PrintWork::pass_pixels(std::function<void(Rendering& rendering, const PixelSize& size)> receive) {

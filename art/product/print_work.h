@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,7 +42,7 @@ public:
 
 protected:
     const Document& document() const { return document_; }
-    const Grammar& grammar() const { return document_.grammar(); }
+    const Grammar& grammar() const { return lit_ ? *lit_ : document_.grammar(); }
     PrintFormat format() const { return format_; }
     const DrawSettings& settings() const { return settings_; }
     const Print& print() const { return print_; }
@@ -61,13 +62,16 @@ protected:
 
 private:
     /// The reason if the drawing is that of the axiom; see reason_of_no_steps().
-    std::string no_steps() const { return settings_.time.generations ? "" : reason_of_no_steps(document_); }
+    std::string no_steps() const {
+        return settings_.time.generations || settings_.time.shows_rule ? "" : reason_of_no_steps(document_);
+    }
     void plan_drawing();
     void place_swatch(const Swatch& swatch);
     void drop_border();
     void drop_floor();
     void check_drawing() const;
     void refuse_key(const char* name, const std::string& message) const;
+    void light_up(const Monitor& monitor, Made& made);
 
     Document document_;
     PrintFormat format_;
@@ -78,6 +82,7 @@ private:
     std::vector<std::string> dropped_;                        ///< warnings of a border or floor that is left out
     std::vector<std::pair<std::string, std::string>> files_;  ///< of borders and surfaces
     std::filesystem::path folder_;
+    std::optional<Grammar> lit_;  ///< drawn instead of the document's, if a step is lit
 };
 
 /// Products, by the settings and the format.
@@ -86,6 +91,7 @@ std::unique_ptr<PrintWork> plan_division(PrintRequest request);
 std::unique_ptr<PrintWork> plan_growth(PrintRequest request);
 std::unique_ptr<PrintWork> plan_lesson(PrintRequest request);
 std::unique_ptr<PrintWork> plan_row(PrintRequest request);
+std::unique_ptr<PrintWork> plan_rule(PrintRequest request);
 std::unique_ptr<PrintWork> plan_one(PrintRequest request);
 
 /// Warns if the text of the pattern is too long for the format.

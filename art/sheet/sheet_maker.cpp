@@ -96,6 +96,7 @@ void SheetMaker::measure() {
                 drawing_cost(grammar, cell_print(cell, options_, cells_.size()), drawing, drawing.reading());
             subject.drawing = make_drawing(grammar, cell.style, drawing);
             subject.extent = cell.may_be_empty ? subject.drawing->seen() : subject.drawing->extent();
+            if (cell.frame) subject.extent = *cell.frame;
             if (subject.extent.box.empty()) subject.extent.box = {glm::dvec2(0.0), glm::dvec2(0.0)};
             const Box& box = subject.extent.box;
             subject.size = box.high - box.low;

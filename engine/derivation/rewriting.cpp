@@ -1,5 +1,6 @@
 // engine/derivation/rewriting.cpp: applies one step of a derivation to a whole word.
 #include "engine/derivation/choice.h"
+#include "engine/derivation/lineage.h"
 #include "engine/derivation/neighbourhood.h"
 
 #include <fmt/format.h>
@@ -16,6 +17,24 @@ namespace {
 
 /// For each symbol of a new word, the index of its predecessor.
 using Parents = std::vector<std::uint32_t>;
+
+/// Receives where the symbols of a new word come from; each part may be null.
+struct Trace {
+    Parents* parents = nullptr;
+    std::vector<std::uint32_t>* applied = nullptr;  ///< as in StepOrigins
+
+    /// Notes what replaces the next `replaced` symbols of the word, of which the first is at `at`, when the new word
+    /// has `size` symbols.
+    void note(std::size_t at, std::size_t size, std::uint32_t production, std::size_t replaced) const {
+        if (parents) parents->resize(size, static_cast<std::uint32_t>(at));
+        if (applied) applied->resize(at + replaced, production);
+    }
+};
+
+std::uint32_t index_of(const Table& table, const Production* production) {
+    if (!production) return StepOrigins::stays;
+    return static_cast<std::uint32_t>(production - table.productions().data());
+}
 
 /// Returns the word without its cut symbols and the symbols after them in their branches.
 /// Source: Prusinkiewicz, Hammel, Hanan & Mech 1996, equation 13.
@@ -87,8 +106,7 @@ public:
         }
     }
 
-    /// @param parents  may be null
-    ModuleWord run(const LengthLimit& limit, Parents* parents) {
+    ModuleWord run(const LengthLimit& limit, const Trace& trace) {
         ModuleWord result;
         result.symbols.reserve(word_.symbols.size());
         result.arguments.reserve(word_.arguments.size());
@@ -114,7 +132,7 @@ public:
             if (!production) {
                 limit.check(result.symbols.size() + 1);
                 result.symbols.push_back(symbol);
-                if (parents) parents->push_back(static_cast<std::uint32_t>(at_));
+                trace.note(at_, result.symbols.size(), StepOrigins::stays, 1);
                 const double* own = word_.arguments.data() + argument_;
                 result.arguments.insert(result.arguments.end(), own, own + info(at_).arity);
                 if (has_places) result.places.push_back(place);
@@ -123,7 +141,7 @@ public:
             }
             limit.check(result.symbols.size() + production->successor.size());
             result.symbols.insert(result.symbols.end(), production->successor.begin(), production->successor.end());
-            if (parents) parents->resize(result.symbols.size(), static_cast<std::uint32_t>(at_));
+            trace.note(at_, result.symbols.size(), index_of(table_, production), production->predecessor.size());
             for (const Expression& argument : production->arguments) {
                 result.arguments.push_back(argument.evaluate(formals_, chance));
             }
@@ -220,7 +238,7 @@ private:
 /// For productions that rewrite one symbol and look at most at the nearest one on each side. Stores only the classes
 /// of the neighbours, and looks up the outcomes.
 Word rewrite_by_nearest(const ContextChoices& choices, const Table& table, const Word& word, const LengthLimit& limit,
-                        MatchingWork& work, Parents* parents) {
+                        MatchingWork& work) {
     using Kind = ContextChoices::Kind;
     constexpr std::size_t block = 2048;
     Outcomes outcomes;
@@ -289,7 +307,6 @@ Word rewrite_by_nearest(const ContextChoices& choices, const Table& table, const
         Symbol* out = first + size;
         for (std::size_t at = begin; at < end; ++at) {
             out = outcomes.write(marks[at - begin], word[at], out);
-            if (parents) parents->resize(static_cast<std::size_t>(out - first), static_cast<std::uint32_t>(at));
         }
         size += more;
     }
@@ -298,7 +315,13 @@ Word rewrite_by_nearest(const ContextChoices& choices, const Table& table, const
 }
 
 Word rewrite_context_free(const Table& table, const Word& word, const LengthLimit& limit, MatchingWork& work,
-                          Parents* parents) {
+                          const Trace& trace) {
+    std::vector<std::uint32_t> known;  // by symbol, the first of its productions
+    for (std::size_t i = trace.applied ? table.productions().size() : 0; i > 0; --i) {
+        const Symbol symbol = table.productions()[i - 1].predecessor.front();
+        if (symbol >= known.size()) known.resize(std::size_t{symbol} + 1, StepOrigins::stays);
+        known[symbol] = static_cast<std::uint32_t>(i - 1);
+    }
     Word result;
     result.reserve(word.size());
     for (std::size_t at = 0; at < word.size(); ++at) {
@@ -310,18 +333,18 @@ Word rewrite_context_free(const Table& table, const Word& word, const LengthLimi
         } else {
             result.push_back(word[at]);
         }
-        if (parents) parents->resize(result.size(), static_cast<std::uint32_t>(at));
+        trace.note(at, result.size(), word[at] < known.size() ? known[word[at]] : StepOrigins::stays, 1);
     }
     return result;
 }
 
 Word rewrite_plain(const Grammar& grammar, const Table& table, const Word& word, const DerivationOptions& options,
-                   MatchingWork& work, Parents* parents) {
+                   MatchingWork& work, const Trace& trace) {
     const LengthLimit limit(options);
     limit.check(word.size());
-    if (table.context_free()) return rewrite_context_free(table, word, limit, work, parents);
+    if (table.context_free()) return rewrite_context_free(table, word, limit, work, trace);
     const ContextChoices& choices = work.choices(grammar, table);
-    if (choices.looks_at_nearest()) return rewrite_by_nearest(choices, table, word, limit, work, parents);
+    if (choices.looks_at_nearest() && !trace.parents) return rewrite_by_nearest(choices, table, word, limit, work);
     Neighbourhood neighbourhood(choices, word, work);
     const auto choose = [&](std::size_t at) -> const Production* {
         for (const std::uint32_t i : choices.candidates(neighbourhood.index(at))) {
@@ -346,14 +369,15 @@ Word rewrite_plain(const Grammar& grammar, const Table& table, const Word& word,
         } else {
             result.push_back(word[at]);
         }
-        if (parents) parents->resize(result.size(), static_cast<std::uint32_t>(at));
-        at += production ? production->predecessor.size() : 1;
+        const std::size_t replaced = production ? production->predecessor.size() : 1;
+        trace.note(at, result.size(), index_of(table, production), replaced);
+        at += replaced;
     }
     return result;
 }
 
 ModuleWord rewrite_whole(const Grammar& grammar, const Table& table, const ModuleWord& given, std::int64_t step,
-                         const DerivationOptions& options, MatchingWork& work, Parents* parents) {
+                         const DerivationOptions& options, MatchingWork& work, const Trace& trace) {
     std::optional<ModuleWord> trimmed;
     Parents kept;
     if (grammar.cut() &&
@@ -364,15 +388,20 @@ ModuleWord rewrite_whole(const Grammar& grammar, const Table& table, const Modul
     work.begin_step(step, word.symbols.size());
     const auto rewritten = [&]() -> ModuleWord {
         if (grammar.is_plain()) {
-            return {rewrite_plain(grammar, table, word.symbols, options, work, parents), {}, {}};
+            return {rewrite_plain(grammar, table, word.symbols, options, work, trace), {}, {}};
         }
         const LengthLimit limit(options);
         limit.check(word.symbols.size());
-        return ModuleRewriter(grammar, table, word, step, work).run(limit, parents);
+        return ModuleRewriter(grammar, table, word, step, work).run(limit, trace);
     };
     ModuleWord result = rewritten();
-    if (trimmed && parents) {
-        for (std::uint32_t& parent : *parents) parent = kept[parent];
+    if (trimmed && trace.parents) {
+        for (std::uint32_t& parent : *trace.parents) parent = kept[parent];
+    }
+    if (trimmed && trace.applied) {
+        std::vector<std::uint32_t> all(given.symbols.size(), StepOrigins::is_cut);
+        for (std::size_t i = 0; i < kept.size(); ++i) all[kept[i]] = (*trace.applied)[i];
+        *trace.applied = std::move(all);
     }
     return result;
 }
@@ -381,20 +410,28 @@ ModuleWord rewrite_whole(const Grammar& grammar, const Table& table, const Modul
 
 ModuleWord rewrite(const Grammar& grammar, const Table& table, const ModuleWord& word, std::int64_t step,
                    const DerivationOptions& options, MatchingWork& work) {
-    return rewrite_whole(grammar, table, word, step, options, work, nullptr);
+    return rewrite_whole(grammar, table, word, step, options, work, {});
 }
 
 Word rewrite(const Grammar& grammar, const Table& table, const Word& word, const DerivationOptions& options) {
     MatchingWork work(options);
     work.begin_step(1, word.size());
-    return rewrite_plain(grammar, table, word, options, work, nullptr);
+    return rewrite_plain(grammar, table, word, options, work, {});
 }
 
 ModuleWord rewrite(const Grammar& grammar, const Table& table, const ModuleWord& word, std::int64_t step,
                    const DerivationOptions& options, std::vector<std::uint32_t>* parents) {
     if (parents) parents->clear();
     MatchingWork work(options);
-    return rewrite_whole(grammar, table, word, step, options, work, parents);
+    return rewrite_whole(grammar, table, word, step, options, work, {parents});
+}
+
+ModuleWord rewrite(const Grammar& grammar, const Table& table, const ModuleWord& word, std::int64_t step,
+                   const DerivationOptions& options, StepOrigins& origins) {
+    origins.parents.clear();
+    origins.applied.clear();
+    MatchingWork work(options);
+    return rewrite_whole(grammar, table, word, step, options, work, {&origins.parents, &origins.applied});
 }
 
 }  // namespace sikku

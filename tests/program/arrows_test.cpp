@@ -99,6 +99,7 @@ const std::vector<Room>& rooms() {
          "art/tiles art/deep",
          ""},
         {"art/motion", "engine/* art/style art/print art/vector art/raster art/image art/drawing art/writer", ""},
+        {"art/words", "engine/* art/vector", ""},
         {"art/cutting",
          "engine/* art/style art/print art/vector art/plotter art/image art/drawing art/tiles art/writer", ""},
         {"art/sheet", "engine/* art/style art/print art/vector art/raster art/font art/image art/drawing art/writer",

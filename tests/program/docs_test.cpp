@@ -111,10 +111,11 @@ std::regex pattern_of(const std::vector<std::string>& lines) {
     return std::regex(all);
 }
 
-/// Does what the tutorial says, in one folder for each of its parts, and compares what it shows.
-TEST(Docs, TheTutorialShowsWhatItsCommandsPrint) {
+/// Does what a page says, in one folder for each of its parts, and compares what it shows. Returns the number of
+/// comparisons.
+int compare_page(const std::string& page) {
     const std::string path = std::filesystem::path(SIKKU_PROGRAM).parent_path().string() + ":/usr/bin:/bin";
-    const std::string text = contents(root / "docs" / "tutorial.md");
+    const std::string text = contents(root / "docs" / page);
     static const std::regex writes("(?:Write|write) .*into `([a-z.]+)`");
     int compared = 0;
     for (std::size_t at = text.find("\n## "), next = 0; at != std::string::npos; at = next) {
@@ -147,7 +148,19 @@ TEST(Docs, TheTutorialShowsWhatItsCommandsPrint) {
             }
         }
     }
-    EXPECT_GE(compared, 8);
+    return compared;
+}
+
+TEST(Docs, TheTutorialShowsWhatItsCommandsPrint) {
+    EXPECT_GE(compare_page("tutorial.md"), 8);
+}
+
+TEST(Docs, TheTeachingPageShowsWhatItsCommandsPrint) {
+    EXPECT_GE(compare_page("teaching.md"), 12);
+    // Twelve exercises with solutions.
+    const std::string text = contents(root / "docs" / "teaching.md");
+    EXPECT_EQ(count_of(text, "\n## Exercise "), 12U);
+    EXPECT_EQ(count_of(text, "\n**Solution.**"), 12U);
 }
 
 TEST(Docs, TheReadmeListsAllPages) {

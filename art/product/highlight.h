@@ -1,0 +1,31 @@
+// art/product/highlight.h: lights the parts of a drawing that the productions of one step made.
+#pragma once
+
+#include "art/product/draw_settings.h"
+#include "engine/base/monitor.h"
+
+#include <string>
+
+namespace sikku {
+
+/// A drawing of a word that was derived whole, in which colours show where symbols come from.
+struct LitDrawing {
+    Grammar grammar;
+    Style style;
+    std::string fact;  ///< a remark: how many symbols the step replaced
+};
+
+/// Colours what each symbol that a step replaced has become in the finished drawing: in turn with six colours, or one
+/// in the first colour; everything else is pale. Edges of polygons keep their colour, so that tiles stay apart.
+/// Works with every system of words: tables, contexts, parameters, random choices, cuts, `interpret:`.
+/// Memory: the word and the one before it, 4 bytes a symbol for its origin.
+/// @throws SettingError if there is no such step or symbol; BudgetError if the word is too long to be kept; WordError
+LitDrawing lit_drawing(const Grammar& grammar, const Style& style, const Highlight& highlight, double budget,
+                       const Monitor& monitor);
+
+/// The colours of parts on a ground. @param ground  absent: white paper
+std::vector<Colour> lit_colours(const std::optional<Colour>& ground);
+/// A mixture of two colours: `share` of the first.
+Colour mixed_colour(Colour one, Colour other, double share);
+
+}  // namespace sikku
