@@ -9,6 +9,7 @@ import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import { parseArgs } from "node:util";
 import { notices } from "./notices.mjs";
+import { loadBridge } from "./load_bridge.mjs";
 import { alphabet } from "./page/alphabet.js";
 
 const most_bytes = 2_200_000;
@@ -38,7 +39,7 @@ async function bundle(entry) {
         logLevel: "warning",
         external: ["module", "fs", "path", "url", "crypto", "worker_threads"],
         define: { "import.meta.url": '""', "import.meta": "{}" },
-        plugins: [notices_as_module, styles_as_text, workers_as_text],
+        plugins: [facts_as_module, notices_as_module, styles_as_text, workers_as_text],
     });
     return result.outputFiles[0].text.replaceAll("</script", "<\\/script").replaceAll("<!--", "<\\!--");
 }
@@ -58,6 +59,16 @@ const notices_as_module = made("notices", /^notices$/, () => ({
     contents: JSON.stringify(notices(join(here, "node_modules"))),
     loader: "json",
 }));
+
+// What the libraries say about patterns, arrangements and options. The page would need a second to ask for it. The
+// libraries contain the texts of patterns.
+const facts_as_module = made("facts", /^library-facts$/, async () => {
+    const ask = await loadBridge(bridge);
+    const answer = (what) => JSON.parse(ask(JSON.stringify({ do: what })).json);
+    const patterns = answer("patterns").patterns.map(({ text, ...facts }) => facts);
+    const { arrangements } = answer("arrangements");
+    return { contents: JSON.stringify({ patterns, arrangements, help: answer("help") }), loader: "json" };
+});
 
 // `worker:sound/file.ts` imports the bundle of that file as a string.
 const workers_as_text = made(

@@ -12,12 +12,13 @@ import { makeGalleryPanel } from "./gallery";
 import { givenEntries, openGiven } from "./given";
 import { Guide } from "./guide";
 import { applyTheme, makeLayout } from "./layout";
+import libraryFacts from "library-facts";
 import { makeMapPanel } from "./map";
 import { acceptDrops } from "./open_file";
 import panelStyles from "panel-styles";
 import { Panels } from "./panels";
 import { makePlayPanel } from "./play";
-import type { Arrangements, Help, Patterns } from "./protocol";
+import type { Texts } from "./protocol";
 import { restoreScales } from "./scales";
 import { watchLinks } from "./share";
 import { makeSpacePanel } from "./space";
@@ -72,14 +73,10 @@ async function main(): Promise<void> {
         openGiven(application, given[0].name);
     }
     const opening = application.open();
-    const [patterns, arrangements, help] = await Promise.all([
-        engine.request<Patterns>({ do: "patterns" }),
-        engine.request<Arrangements>({ do: "arrangements" }),
-        engine.request<Help>({ do: "help" }),
-    ]);
-    application.patterns = [...given, ...patterns.json.patterns];
-    application.arrangements = arrangements.json.arrangements;
-    application.help = help.json;
+    const { texts } = (await engine.request<Texts>({ do: "texts" })).json;
+    application.patterns = [...given, ...libraryFacts.patterns.map((entry, at) => ({ ...entry, text: texts[at]! }))];
+    application.arrangements = libraryFacts.arrangements;
+    application.help = libraryFacts.help;
     new Panels(application, [
         makeMapPanel,
         makeGalleryPanel,
@@ -105,11 +102,10 @@ async function main(): Promise<void> {
 
 // A page that only shows the work of a link.
 async function showOnly(application: Application, link: string): Promise<void> {
-    const help = await application.engine.request<Help>({ do: "help" });
-    application.help = help.json;
+    application.help = libraryFacts.help;
     application.patterns = [];
     try {
-        await view(application, link, help.json);
+        await view(application, link, libraryFacts.help);
     } catch (error) {
         throw new Error(`the link cannot be read: ${messageOf(error)}`);
     }

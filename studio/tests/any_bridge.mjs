@@ -2,7 +2,7 @@
 import { spawnSync } from "node:child_process";
 import { existsSync } from "node:fs";
 import { join } from "node:path";
-import { loadBridge, root } from "./load_bridge.mjs";
+import { loadBridge, root } from "../load_bridge.mjs";
 
 const folder = join(root, "build/studio");
 const isBuilt = ["sikku-bridge.wasm", "sikku-bridge.cjs"].every((name) => existsSync(join(folder, name)));

@@ -5,7 +5,7 @@ import { join } from "node:path";
 import { after, test } from "node:test";
 import { LanguageClient } from "../../tests/full/language_client.mjs";
 import { anyBridge } from "./any_bridge.mjs";
-import { root } from "./load_bridge.mjs";
+import { root } from "../load_bridge.mjs";
 
 const program = ["dev", "release"].map((build) => join(root, "build", build, "bin/sikku")).find(existsSync);
 const skip = program ? false : "the program is not built";

@@ -196,7 +196,7 @@ test(
     "tiles join without a seam",
     { skip: existsSync(built) ? false : "the libraries have not been built" },
     async () => {
-        const { loadBridge } = await import("./load_bridge.mjs");
+        const { loadBridge } = await import("../load_bridge.mjs");
         const bridge = await loadBridge();
         const text =
             "derivation length: 60\nangle factor: 4\naxiom: X\nX --> -YF+XFX+FY-\nY --> +XF-YFY-FX+\n" +

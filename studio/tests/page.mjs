@@ -484,7 +484,7 @@ test("a link contains everything and runs nothing before it is opened", async ({
 
 // Links as anyone may write them.
 async function linkOf(shared) {
-    linkOf.bridge ??= await (await import("./load_bridge.mjs")).loadBridge();
+    linkOf.bridge ??= await (await import("../load_bridge.mjs")).loadBridge();
     return `#${JSON.parse(linkOf.bridge(JSON.stringify({ do: "link", shared })).json).link}`;
 }
 

@@ -6,7 +6,7 @@ import { mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "n
 import { tmpdir } from "node:os";
 import { basename, join, resolve } from "node:path";
 import { load } from "./load.mjs";
-import { loadBridge, root } from "./load_bridge.mjs";
+import { loadBridge, root } from "../load_bridge.mjs";
 
 const build = resolve(process.argv[2] ?? join(root, "build/dev"));
 const is_quick = process.argv.includes("--quick");

@@ -4,7 +4,7 @@ import { readdirSync, readFileSync } from "node:fs";
 import { basename, join } from "node:path";
 import { test } from "node:test";
 import { load } from "./load.mjs";
-import { root } from "./load_bridge.mjs";
+import { root } from "../load_bridge.mjs";
 
 const { fileName, isAnother, renamed } = await load("versions");
 const { RequestFailed } = await load("context");

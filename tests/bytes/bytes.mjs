@@ -4,7 +4,7 @@
 import { createHash } from "node:crypto";
 import { readFileSync } from "node:fs";
 import { resolve } from "node:path";
-import { loadBridge } from "../../studio/tests/load_bridge.mjs";
+import { loadBridge } from "../../studio/load_bridge.mjs";
 
 const bridge = await loadBridge(resolve(process.argv[2]));
 const ask = (request) => {

@@ -6,7 +6,7 @@ import { tmpdir } from "node:os";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
 
-export const root = resolve(dirname(fileURLToPath(import.meta.url)), "../..");
+export const root = resolve(dirname(fileURLToPath(import.meta.url)), "..");
 
 export async function loadBridge(module_folder = join(root, "build/studio")) {
     const folder = mkdtempSync(join(tmpdir(), "sikku-bridge-"));
