@@ -104,7 +104,10 @@ void hand_over_in_order(std::size_t places, int threads, const std::function<boo
     enum State : int { idle, ready, taken, done };
     std::vector<std::atomic<int>> states(places);
     for (std::atomic<int>& state : states) state = idle;
-    const auto try_to_work = [&](std::size_t place) {
+    // A task that no thread has begun serves the next item of its place, too.
+    std::vector<std::atomic<bool>> is_queued(places);
+    for (std::atomic<bool>& each : is_queued) each = false;
+    const auto try_to_work = [&](std::size_t place) noexcept {
         int expected = ready;
         if (!states[place].compare_exchange_strong(expected, taken)) return;
         work(place);
@@ -124,7 +127,12 @@ void hand_over_in_order(std::size_t places, int threads, const std::function<boo
                     is_more = prepare(place);
                     if (!is_more) break;
                     states[place] = ready;
-                    group.run([&try_to_work, place] { try_to_work(place); });
+                    if (!is_queued[place].exchange(true)) {
+                        group.run([&try_to_work, &is_queued, place] {
+                            is_queued[place] = false;
+                            try_to_work(place);
+                        });
+                    }
                     ++prepared;
                 }
                 if (delivered == prepared) break;

@@ -17,7 +17,8 @@ constexpr double least_growth = 8;          // expected symbols for each one of 
 constexpr std::size_t longest_beside = 20;  // text before a symbol, after it, or alone
 constexpr std::size_t most_kinds = 4096;    // at all levels together
 constexpr std::size_t most_table_entries = std::size_t{1} << 16;  // of the tables of a level
-constexpr double usual_root = 1 << 13;  // symbols that become of a module at low(), on average
+constexpr double usual_root = 1 << 13;    // symbols that become of a module at low(), on average
+constexpr double largest_root = 1 << 15;  // memory for its expansion, in modules
 constexpr Symbol no_symbol = std::numeric_limits<Symbol>::max();
 
 // Texts at level 1: of a kind, its successor, of the kind.
@@ -44,7 +45,7 @@ DrawnLevels::DrawnLevels(const Grammar& grammar, const Levels& levels, std::stri
     if (!is_long()) return;
     find_texts();
     is_usable_ = make_levels();
-    if (is_usable_) find_means();
+    if (is_usable_) find_sizes();
 }
 
 bool DrawnLevels::is_long() const {
@@ -201,31 +202,40 @@ void DrawnLevels::add_alternative(std::int64_t level, const Kind& kind, const Ch
     }
 }
 
-void DrawnLevels::find_means() {
+void DrawnLevels::find_sizes() {
     for (std::int64_t level = 1; level <= levels_.count(); ++level) {
         DrawnLevel& drawn = drawn_[static_cast<std::size_t>(level)];
-        double largest = 0;
+        const DrawnLevel& below = drawn_[static_cast<std::size_t>(level) - 1];
+        double largest_mean = 0, most_room = 0;
         for (std::size_t kind = 0; kind < drawn.kinds(); ++kind) {
             const auto begins =
                 std::span(drawn.begins).subspan(kind * (drawn.alternatives - 1), drawn.alternatives - 1);
-            double mean = 0;
+            double mean = 0, room = 0;
             for (std::size_t k = 0; k < drawn.alternatives; ++k) {
                 const std::size_t alternative = kind * drawn.alternatives + k;
-                double size = 0;
+                double size = 0, children_room = 0;
                 if (level == 1) {
                     size = static_cast<double>(drawn.texts[alternative].size());
                 } else {
-                    const std::vector<double>& below = drawn_[static_cast<std::size_t>(level) - 1].means;
                     for (std::size_t i = 0; i < drawn.counts[alternative]; ++i) {
-                        size += below[drawn.children[alternative * drawn.most + i].kind];
+                        const std::uint32_t child = drawn.children[alternative * drawn.most + i].kind;
+                        size += below.means[child];
+                        children_room += below.rooms[child];
                     }
                 }
                 mean += size * probability(begins, k, drawn.alternatives);
+                room = std::max(room, children_room);
             }
+            // Memory for the most children of any module, or for a text.
+            room += level == 1 ? static_cast<double>(longest_text) / sizeof(DrawnModule)
+                               : static_cast<double>(drawn.most);
             drawn.means.push_back(mean);
-            largest = std::max(largest, mean);
+            drawn.rooms.push_back(room);
+            largest_mean = std::max(largest_mean, mean);
+            most_room = std::max(most_room, room);
         }
-        if (largest <= usual_root) low_ = level;
+        if (level > 1 && (largest_mean > usual_root || most_room > largest_root)) break;
+        low_ = level;
     }
 }
 

@@ -38,6 +38,7 @@ struct DrawnLevel {
     std::vector<std::uint32_t> counts;  ///< for each alternative, how many of them it has
     std::vector<std::string> texts;     ///< at level 1, for each alternative
     std::vector<double> means;          ///< for each kind, the expected number of symbols of the word
+    std::vector<double> rooms;          ///< for each kind, the most memory that its expansion takes, in modules
 
     std::size_t kinds() const { return keeps.size(); }
     /// Number of the alternative that replaces a module with that place.
@@ -68,7 +69,8 @@ public:
     const DrawnLevel& level(std::int64_t level) const { return drawn_[static_cast<std::size_t>(level)]; }
     /// The kind of a symbol of the axiom, at the highest level.
     std::uint32_t axiom_kind(Symbol symbol) const { return axiom_kinds_[symbol]; }
-    /// The highest level whose modules are expected to become few symbols each.
+    /// The highest level of which, and below which, expansions of modules take little memory whatever is chosen, and
+    /// are expected to become few symbols each. Only up to this level are there `means` and `rooms`.
     std::int64_t low() const { return low_; }
 
 private:
@@ -91,7 +93,7 @@ private:
     void add_alternative(std::int64_t level, const Kind& kind, const Choices::Successor* successor,
                          std::vector<std::vector<Part>>& parts);
     std::uint32_t number(const Kind& kind, std::int64_t level);
-    void find_means();
+    void find_sizes();
 
     const Grammar& grammar_;
     const Levels& levels_;

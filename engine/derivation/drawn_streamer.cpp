@@ -18,6 +18,7 @@ namespace {
 
 constexpr double usual_part = 1 << 15;       // symbols of a part, on average
 constexpr std::size_t most_roots = 1 << 13;  // of a part
+constexpr double most_room = 1 << 17;        // of a part, in modules, whatever is chosen
 constexpr std::size_t modules_at_once = 256;
 constexpr int parts_before_threads = 16;
 constexpr int most_threads = 8;
@@ -82,16 +83,22 @@ public:
     void clear() {
         roots_.clear();
         expected_ = 0;
+        room_ = 0;
         nodes_above_ = 0;
     }
     /// Counts a node that was visited on the way to the modules.
     void add_node() { ++nodes_above_; }
-    void add(const DrawnModule& root, double expected) {
+    void add(const DrawnModule& root, double expected, double room) {
         roots_.push_back(root);
         expected_ += expected;
+        room_ += room;
     }
-    bool is_empty() const { return roots_.empty(); }
-    bool is_full() const { return expected_ >= usual_part || roots_.size() >= most_roots; }
+    bool is_empty() const { return roots_.empty() && nodes_above_ == 0; }
+    /// Also true after many nodes that were erased, so that the budget counts them.
+    bool is_full() const {
+        return expected_ >= usual_part || room_ >= most_room || roots_.size() >= most_roots ||
+               nodes_above_ >= between_watches;
+    }
 
     /// Expands the modules, which are of levels.low(). Does not throw: text() does.
     void expand_all(const DrawnLevels& levels, const DrawnTexts& texts) noexcept {
@@ -151,7 +158,7 @@ private:
     }
 
     std::vector<DrawnModule> roots_;
-    double expected_ = 0;
+    double expected_ = 0, room_ = 0;
     std::uint64_t nodes_above_ = 0;
     std::array<std::vector<DrawnModule>, 2> above_;  // by level, modulo 2
     std::vector<DrawnModule> lowest_;
@@ -219,7 +226,7 @@ private:
 
     void take(const DrawnModule& module, std::int64_t number, WordPart& part) {
         const DrawnLevel& level = levels_.level(number);
-        if (number == levels_.low()) return part.add(module, level.means[module.kind]);
+        if (number == levels_.low()) return part.add(module, level.means[module.kind], level.rooms[module.kind]);
         part.add_node();
         const std::uint64_t place = scrambled(module.key);
         const std::size_t alternative = level.chosen(module.kind, place);

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <limits>
 #include <map>
+#include <new>
 #include <utility>
 
 namespace sikku {
@@ -51,10 +53,12 @@ std::size_t small_bytes(std::uint64_t eight) {
 
 void RawBytes::resize(std::size_t size) {
     if (size > room_) {
+        if (size > std::numeric_limits<std::size_t>::max() / 4) throw std::bad_alloc();
         bytes_.reset();
+        room_ = 0;
         // What is not written takes no memory.
+        bytes_.reset(new std::uint8_t[2 * size]);
         room_ = 2 * size;
-        bytes_.reset(new std::uint8_t[room_]);
     }
     size_ = size;
 }

@@ -18,6 +18,7 @@
 #include <string_view>
 #include <thread>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace sikku::parallel_words_test {
@@ -261,13 +262,47 @@ TEST(ParallelChance, StopsWhenTheReaderStops) {
     }
 }
 
+long peak() {
+    rusage usage = {};
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss;
+}
+
+// Words most of whose symbols are erased at the end, or soon, or that rarely grow.
+TEST(ParallelChance, ErasedSymbolsAreCountedAndTakeLittleMemory) {
+    if (sanitized) GTEST_SKIP() << "sanitizers take memory of their own";
+    const std::vector<std::pair<std::string, std::string>> systems = {
+        {"axiom: C\nC --> CC\n", "interpret:\nC --> x : 0.0001\nC --> : 0.9999\n"},
+        {"axiom: CCCCCCCCCCCCCCCCCCCCCCCCCCCCCCCC\nC --> CCCC : 0.5\nC --> : 0.5\n",
+         "interpret:\nC --> x : 0.000001\nC --> : 0.999999\n"},
+        {"axiom: AAAA\nA --> AA\nB --> BBBBBBBB\n", "interpret:\nA --> B : 0.000001\nA --> : 0.999999\n"},
+        {"axiom: AAAA\nA --> AA : 0.999\nA --> BB : 0.001\nB --> BBBBBBBBBBBBBBBB\n", ""},
+    };
+    for (const auto& [productions, homomorphism] : systems) {
+        const Grammar grammar = long_grammar(productions + homomorphism, 40);
+        std::set<End> ends;
+        for (const int threads : thread_counts) {
+            const long before = peak();
+            on_threads(threads, [&] {
+                End end;
+                DerivationOptions options;
+                options.interpreted = true;
+                options.most_nodes = 2e6;
+                Digest digest;
+                end.message = error_of<BudgetError>([&] { derive(grammar, digest, options); });
+                EXPECT_TRUE(has(end.message, "visits more nodes than the budget of")) << productions << end.message;
+                end.count = digest.count;
+                end.mixed = digest.mixed;
+                ends.insert(end);
+            });
+            EXPECT_LT(peak() - before, 64 * 1024) << productions;
+        }
+        EXPECT_EQ(ends.size(), 1u) << productions;
+    }
+}
+
 TEST(ParallelChance, TakesLittleMemory) {
     if (sanitized) GTEST_SKIP() << "sanitizers take memory of their own";
-    const auto peak = [] {
-        rusage usage = {};
-        getrusage(RUSAGE_SELF, &usage);
-        return usage.ru_maxrss;
-    };
     const Grammar grammar = long_grammar(specimen, 13);
     const long before = peak();
     on_threads(8, [&] {
