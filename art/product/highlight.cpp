@@ -196,8 +196,7 @@ Colour mixed_colour(Colour one, Colour other, double share) {
 
 LitDrawing lit_drawing(const Grammar& grammar, const Style& style, const Highlight& highlight, double budget,
                        const Monitor& monitor) {
-    if (grammar.steps() == 0)
-        refuse_highlight(highlight, "the derivation length is 0, so that no step replaces anything");
+    if (grammar.steps() == 0) refuse_highlight(highlight, "the derivation length is 0, so no step replaces anything");
     if (highlight.step > grammar.steps()) {
         refuse_highlight(highlight,
                          fmt::format("expected a step from 1 to the derivation length, {}", grammar.steps()));
@@ -206,7 +205,7 @@ LitDrawing lit_drawing(const Grammar& grammar, const Style& style, const Highlig
     try {
         traced = HighlightTracer(grammar, highlight, budget, monitor).trace();
     } catch (const BudgetError& error) {
-        throw BudgetError(fmt::format("'highlight' keeps whole words, and {}", error.what()));
+        throw BudgetError(fmt::format("'highlight' keeps whole words in memory: {}", error.what()));
     }
     if (traced.count == 0) {
         refuse_highlight(highlight, fmt::format("no production is applied in step {}", highlight.step));
@@ -216,7 +215,8 @@ LitDrawing lit_drawing(const Grammar& grammar, const Style& style, const Highlig
     }
     const auto written = grammar.written_out(traced.word);
     if (!written)
-        throw BudgetError("'highlight' keeps whole words, and this one has more than 524,288 different modules");
+        throw BudgetError(
+            "'highlight' keeps whole words in memory: the word has more than 524,288 different modules");
     const int colours = static_cast<int>(lit_colours(style.ground).size());
     ColouredWord coloured(*written, colours, highlight.symbol, style.moves_draw());
     std::string fact =

@@ -290,7 +290,7 @@ public:
         }
         if (left_out > 0) {
             result.sentences.push_back(
-                fmt::format("{} further productions are left out after the first {}", left_out, most_figures));
+                fmt::format("{} productions after the first {} are left out", left_out, most_figures));
         }
         result.style = style_;
         return result;

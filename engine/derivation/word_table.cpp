@@ -307,7 +307,7 @@ std::string words_as_markdown(const WordTable& table, std::size_t wrap, const st
 
 std::string words_as_latex(const WordTable& table, const std::string& title) {
     std::string text = fmt::format(
-        "% {}Symbols that the next step replaces are underlined: \\replaced can be redefined.\n"
+        "% {}Symbols that the next step replaces are underlined by \\replaced.\n"
         "\\providecommand{{\\replaced}}[1]{{\\underline{{\\smash{{#1}}}}}}\n"
         "\\begin{{center}}\\ttfamily\\setlength{{\\tabcolsep}}{{1pt}}\n"
         "\\begin{{tabular}}{{r@{{\\quad}}*{{{}}}{{c}}}}\n",
