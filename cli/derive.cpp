@@ -106,7 +106,7 @@ struct WordLimits {
     const char* what;  ///< subject of the message
 };
 
-/// Forecasts the symbols of all words together; null if this would require deriving a word.
+/// Forecasts the symbols of all words together; absent if a word would have to be derived.
 std::optional<double> symbols_of_words(const Grammar& grammar, std::int64_t first, std::int64_t last) {
     constexpr std::int64_t most_forecast = 2000;  // the cost grows with the square
     if (last > most_forecast || grammar.has_schedule()) return std::nullopt;
@@ -121,7 +121,7 @@ std::optional<double> symbols_of_words(const Grammar& grammar, std::int64_t firs
     return all;
 }
 
-/// Refuses words that are too long before they are derived. @throws BudgetError
+/// Refuses words that are too long, before deriving them. @throws BudgetError
 void require_short_words(const Grammar& grammar, std::int64_t first, std::int64_t last, const WordLimits& limits) {
     const auto known = symbols_of_words(grammar, first, last);
     const auto most = static_cast<double>(limits.symbols);
@@ -277,9 +277,9 @@ void add_derive(CLI::App& app, bool& quiet) {
         "`edge LABEL TAIL HEAD BORN` (the step of its wall) and `cell +0 -3 …`, the half-edges clockwise around a "
         "cell: + from tail to head, - backwards; the last line is the outline.\n\n"
         "All words of --generations belong to one derivation of B steps: a schedule selects the same tables for all "
-        "of them. Symbols that the next step replaces are red in SVG and underlined in LaTeX. All words together "
-        "have "
-        "at most 20,000 symbols in text, Markdown and LaTeX, 4,000 in an SVG of words and 2,000 in a tree.\n\n"
+        "of them. Symbols that the next step replaces are red in SVG and underlined in LaTeX. All words "
+        "together have at most 20,000 symbols in text, Markdown and LaTeX, 4,000 in an SVG of words and 2,000 in a "
+        "tree.\n\n"
         "Examples:\n"
         "  sikku derive fibonacci-words\n"
         "  sikku derive koch-island -n 8 | wc -c\n"

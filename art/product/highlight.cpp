@@ -19,12 +19,12 @@ namespace {
         why);
 }
 
-/// A word, and for each of its symbols the number of the symbol that the step replaced, from 1; 0: none.
+/// A word. `parts` has for each symbol the number of the replaced symbol that it comes from, from 1; 0: none.
 struct TracedWord {
     ModuleWord word;
     std::vector<std::uint32_t> parts;
     std::uint32_t count = 0;  ///< symbols that the step replaced
-    std::string chosen;       ///< the text of the one that is lit, if there is one
+    std::string chosen;       ///< text of the symbol that is highlighted, if one was chosen
 };
 
 /// Derives a word step by step.
@@ -64,7 +64,7 @@ private:
         traced_.word = std::move(next);
     }
 
-    /// Numbers the symbols that productions replace; several that one production replaces count as one.
+    /// Numbers the symbols that productions replace. Symbols that one production replaces together count as one.
     std::vector<std::uint32_t> number_replaced(const Table& table, const std::vector<std::uint32_t>& applied) {
         std::vector<std::uint32_t> numbers(applied.size(), 0);
         for (std::size_t i = 0; i < applied.size();) {
