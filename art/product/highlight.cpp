@@ -211,7 +211,8 @@ LitDrawing lit_drawing(const Grammar& grammar, const Style& style, const Highlig
         refuse_highlight(highlight, fmt::format("no production is applied in step {}", highlight.step));
     }
     if (highlight.symbol && *highlight.symbol > traced.count) {
-        refuse_highlight(highlight, fmt::format("step {} replaces only {} symbols", highlight.step, traced.count));
+        refuse_highlight(highlight, fmt::format("step {} replaces only {} {}", highlight.step, traced.count,
+                                                traced.count == 1 ? "symbol" : "symbols"));
     }
     const auto written = grammar.written_out(traced.word);
     if (!written)

@@ -290,7 +290,7 @@ public:
         }
         if (left_out > 0) {
             result.sentences.push_back(
-                fmt::format("{} productions after the first {} are left out", left_out, most_figures));
+                fmt::format("productions after the first {} are left out: {}", most_figures, left_out));
         }
         result.style = style_;
         return result;
