@@ -143,7 +143,7 @@ void refuse_alone(const OptionValues& values) {
         if (!option) continue;
         const char* why = option->scope == Scope::sheets   ? "a sheet of several drawings cannot be cut into tiles"
                           : option->scope == Scope::lesson ? "a lesson has pages of its own; draw makes it"
-                          : value.name == "rule"           ? "a sheet shows words, not productions; draw shows them"
+                          : value.name == "rule"           ? "a sheet shows words; draw shows productions"
                           : option->scope == Scope::time   ? "a sheet shows one derivation length of each drawing"
                           : value.name == "window"         ? "a place on a sheet shows a whole drawing"
                                                            : nullptr;

@@ -67,12 +67,12 @@ WordFormat word_format_of(const DeriveCommand& command) {
     for (const WordFormatName& row : word_formats) {
         if (row.extension == extension) return row.format;
     }
-    throw UsageError(fmt::format("-o {}: {}; words are .txt, .md, .tex or .svg, a tree is .svg; `sikku draw` draws",
+    throw UsageError(fmt::format("-o {}: {}; words are .txt, .md, .tex or .svg, a tree is .svg",
                                  printable(command.output),
                                  extension.empty() ? "no extension" : "unknown extension"));
 }
 
-/// The numbers of steps of the first and the last word. @throws UsageError
+/// Returns the numbers of steps of the first and the last word. @throws UsageError
 std::pair<std::int64_t, std::int64_t> steps_of_words(const DeriveCommand& command, const Grammar& grammar) {
     constexpr std::int64_t most_words = 1000;
     const std::string& text = command.generations;
@@ -99,14 +99,14 @@ std::pair<std::int64_t, std::int64_t> steps_of_words(const DeriveCommand& comman
     return {first, last};
 }
 
-/// What a figure of words may have.
+/// Limits of a table, a figure or a tree.
 struct WordLimits {
     std::uint64_t symbols;
     std::size_t words;
     const char* what;  ///< subject of the message
 };
 
-/// Forecasts the symbols of all words together, if no word has to be derived for that.
+/// Forecasts the symbols of all words together; absent if a word would have to be derived.
 std::optional<double> symbols_of_words(const Grammar& grammar, std::int64_t first, std::int64_t last) {
     constexpr std::int64_t most_forecast = 2000;  // the cost grows with the square
     if (last > most_forecast || grammar.has_schedule()) return std::nullopt;
@@ -121,7 +121,7 @@ std::optional<double> symbols_of_words(const Grammar& grammar, std::int64_t firs
     return all;
 }
 
-/// Refuses words that are too long before they are derived. @throws BudgetError
+/// Refuses words that are too long, before deriving them. @throws BudgetError
 void require_short_words(const Grammar& grammar, std::int64_t first, std::int64_t last, const WordLimits& limits) {
     const auto known = symbols_of_words(grammar, first, last);
     const auto most = static_cast<double>(limits.symbols);
@@ -139,7 +139,8 @@ void require_short_words(const Grammar& grammar, std::int64_t first, std::int64_
 std::string words_of(const DeriveCommand& command, const Document& loaded, const Monitor& monitor) {
     constexpr std::size_t most_columns = 1000, most_leaves = 256;
     const WordFormat format = word_format_of(command);
-    if (command.is_tree && format != WordFormat::svg) throw UsageError("--tree: a tree is SVG: -o tree.svg");
+    if (command.is_tree && format != WordFormat::svg)
+        throw UsageError("--tree: a tree is written as SVG: -o tree.svg");
     if (command.wrap > 0 && format != WordFormat::text && format != WordFormat::markdown) {
         throw UsageError("--wrap: applies only to text and Markdown");
     }
@@ -153,9 +154,9 @@ std::string words_of(const DeriveCommand& command, const Document& loaded, const
                               : is_figure     ? WordLimits{4000, 100, "an SVG of words"}
                                               : WordLimits{20'000, 1000, "a table of words"};
     if (last - first >= static_cast<std::int64_t>(limits.words)) {
-        throw UsageError(fmt::format("{}: {} has at most {} steps, not {} to {}; --generations selects them",
-                                     command.is_tree ? "--tree" : "--generations", limits.what, limits.words, first,
-                                     last));
+        throw UsageError(
+            fmt::format("{}: {} has at most {} words; steps {} to {} have more; --generations selects steps",
+                        command.is_tree ? "--tree" : "--generations", limits.what, limits.words, first, last));
     }
     require_short_words(document.grammar(), first, last, limits);
     WordLineageLimits derived;
@@ -173,7 +174,7 @@ std::string words_of(const DeriveCommand& command, const Document& loaded, const
     if (format == WordFormat::latex) {
         if (table.leaves > most_leaves) {
             throw BudgetError(
-                fmt::format("the words need {} columns; a table of LaTeX has at most {}", table.leaves, most_leaves));
+                fmt::format("the words need {} columns; a LaTeX table has at most {}", table.leaves, most_leaves));
         }
         return words_as_latex(table, document.text("title"));
     }
@@ -242,18 +243,18 @@ void derive_word(const DeriveCommand& command, bool quiet) {
 
 void add_derive(CLI::App& app, bool& quiet) {
     auto* command =
-        app.add_subcommand("derive", "Print the derived word or map, the words of its steps, or their tree");
+        app.add_subcommand("derive", "Print the derived word or map, the words of its steps, or the derivation tree");
     auto options = std::make_shared<DeriveCommand>();
     add_pattern_options(*command, *options);
     command->add_flag("--interpreted", options->is_interpreted, "apply the productions under `interpret:`");
     command
         ->add_option(
             "--generations", options->generations,
-            "words after A to B steps of a derivation of B steps, one below the other: each symbol above the "
-            "middle of those that replace it; not of maps")
+            "print the words after A to B steps of a derivation of B steps, one below the other, each symbol above "
+            "those that replace it; not for maps")
         ->type_name("A:B");
     command->add_flag("--tree", options->is_tree,
-                      "derivation tree of these words, of all steps by default, as SVG; not of maps");
+                      "draw the derivation tree of these words, of all steps by default, as SVG; not for maps");
     command
         ->add_option(
             "-o,--output", options->output,
@@ -275,11 +276,10 @@ void add_derive(CLI::App& app, bool& quiet) {
         "The word is streamed to standard output; its length has no limit. Maps are printed as lines "
         "`edge LABEL TAIL HEAD BORN` (the step of its wall) and `cell +0 -3 …`, the half-edges clockwise around a "
         "cell: + from tail to head, - backwards; the last line is the outline.\n\n"
-        "Words of --generations are of one derivation, so that a schedule of tables is that of the last. Symbols "
-        "that "
-        "the next step replaces are lit in SVG, and underlined in LaTeX. Text and LaTeX have at most 20,000 symbols "
-        "in "
-        "all words together, an SVG of words 4,000, a tree 2,000.\n\n"
+        "All words of --generations belong to one derivation of B steps: a schedule selects the same tables for all "
+        "of them. Symbols that the next step replaces are red in SVG and underlined in LaTeX. All words "
+        "together have at most 20,000 symbols in text, Markdown and LaTeX, 4,000 in an SVG of words and 2,000 in a "
+        "tree.\n\n"
         "Examples:\n"
         "  sikku derive fibonacci-words\n"
         "  sikku derive koch-island -n 8 | wc -c\n"

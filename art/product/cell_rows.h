@@ -1,4 +1,4 @@
-// art/product/cell_rows.h: prints that are sheets of several drawings of one document.
+// art/product/cell_rows.h: sheets of several drawings of one document.
 #pragma once
 
 #include "art/print/print.h"
@@ -14,7 +14,8 @@ namespace sikku {
 /// The sheet for drawings of a print, with its title.
 SheetOptions row_options(const Print& print, const DrawOptions& drawing);
 
-/// Draws the cells of a sheet, and warns of missing letters and, unless they are meant to be, of faint inks.
+/// Draws the cells of a sheet, and warns of missing letters and of faint inks.
+/// @param has_faint_inks  the drawings use faint inks on purpose: no warning
 SheetLayout make_row(const std::vector<SheetCell>& cells, SheetOptions sheet, const DrawOptions& options,
                      Destination& destination, const std::filesystem::path& name, Made& made,
                      bool has_faint_inks = false);

@@ -151,7 +151,7 @@ constexpr Rule product_rules[] = {
 
     {when::highlighted,
      {{"generations", "divide", lesson, "fill-page", "swatch"}},
-     "cannot be combined with 'highlight', which lights a step of one derivation length"},
+     "cannot be combined with 'highlight', which colours a step of one derivation length"},
     {when::highlighted,
      {{"colouring", "colour-by", "palette", "fill", "fields", "powders", "tile-colours", "decorate"}},
      "cannot be combined with 'highlight', which has its own colours"},

@@ -128,7 +128,7 @@ void set_highlight(DrawSettings& settings, const std::string& text) {
         const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
         if (error != std::errc() || end != part.data() + part.size() || value < 1 || value > INT64_MAX) {
             refuse_option("highlight", text,
-                          "expected a step such as 2, or with one of the symbols that it replaces, 2:5; both from 1");
+                          "expected a step such as 2, or a step and a symbol such as 2:5, both counted from 1");
         }
         return value;
     };
@@ -513,15 +513,16 @@ const std::array own_rows = {
               [](S& s, Text t) { set_word("colour-by", "strand", t, s.look.colours_strokes); }},
     Option<S>{
         {.name = "highlight",
-         .help = "colour what each symbol that step STEP replaced has become, with six colours in turn, or only "
-                 "the Nth of them; the rest is pale; not of maps",
+         .help =
+             "colour the parts that come from each symbol that step STEP replaced, in six colours in turn, or only "
+             "those of the Nth symbol; the rest is pale; not for maps",
          .value = "STEP[:N]",
          .group = kolams,
          .scope = Scope::look},
         set_highlight},
     Option<S>{{.name = "rule",
-               .help = "draw each production instead of the word: what it replaces, an arrow, and what replaces it; "
-                       "a letter that draws nothing itself is a tile; not of maps and models",
+               .help = "draw each production instead of the word: predecessor, arrow and successor; a letter that "
+                       "draws nothing is a tile; not for maps and models",
                .group = kolams,
                .scope = Scope::time,
                .kind = flag,

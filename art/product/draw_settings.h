@@ -47,10 +47,10 @@ struct PlaceSettings {
     glm::dvec2 swatch_stretch{1.0};        ///< scale across and down that gives the swatch whole pixels
 };
 
-/// A step of the derivation whose work is lit.
+/// A step of the derivation by which a drawing is coloured.
 struct Highlight {
     std::int64_t step = 1;                ///< from 1 to the derivation length
-    std::optional<std::uint64_t> symbol;  ///< lights only what this one of the symbols it replaces became; from 1
+    std::optional<std::uint64_t> symbol;  ///< colours only the parts that come from this symbol, counted from 1
 };
 
 /// Contents of the drawing, and values for keys of the pattern. An empty `title_line` stands for the pattern's title.
@@ -60,7 +60,7 @@ struct LookSettings : DrawingSettings {
     std::optional<std::string> dots;       ///< value for `dots:`; empty: default size and colour
     std::optional<std::string> border;     ///< value for `border:`
     std::string font_name;                 ///< font of the texts around the drawing; empty: single strokes
-    std::optional<Highlight> highlight{};  ///< lights the parts that one step made
+    std::optional<Highlight> highlight{};  ///< colours the parts that one step made
 };
 
 /// Several derivation lengths, what moves, and productions side by side.

@@ -19,12 +19,12 @@ namespace {
         why);
 }
 
-/// A word, and for each of its symbols the number of the symbol that the step replaced, from 1; 0: none.
+/// A word. `parts` has for each symbol the number of the replaced symbol that it comes from, from 1; 0: none.
 struct TracedWord {
     ModuleWord word;
     std::vector<std::uint32_t> parts;
     std::uint32_t count = 0;  ///< symbols that the step replaced
-    std::string chosen;       ///< the text of the one that is lit, if there is one
+    std::string chosen;       ///< text of the symbol that is highlighted, if one was chosen
 };
 
 /// Derives a word step by step.
@@ -64,7 +64,7 @@ private:
         traced_.word = std::move(next);
     }
 
-    /// Numbers the symbols that productions replace; several that one production replaces count as one.
+    /// Numbers the symbols that productions replace. Symbols that one production replaces together count as one.
     std::vector<std::uint32_t> number_replaced(const Table& table, const std::vector<std::uint32_t>& applied) {
         std::vector<std::uint32_t> numbers(applied.size(), 0);
         for (std::size_t i = 0; i < applied.size();) {
@@ -196,8 +196,7 @@ Colour mixed_colour(Colour one, Colour other, double share) {
 
 LitDrawing lit_drawing(const Grammar& grammar, const Style& style, const Highlight& highlight, double budget,
                        const Monitor& monitor) {
-    if (grammar.steps() == 0)
-        refuse_highlight(highlight, "the derivation length is 0, so that no step replaces anything");
+    if (grammar.steps() == 0) refuse_highlight(highlight, "the derivation length is 0, so no step replaces anything");
     if (highlight.step > grammar.steps()) {
         refuse_highlight(highlight,
                          fmt::format("expected a step from 1 to the derivation length, {}", grammar.steps()));
@@ -206,17 +205,19 @@ LitDrawing lit_drawing(const Grammar& grammar, const Style& style, const Highlig
     try {
         traced = HighlightTracer(grammar, highlight, budget, monitor).trace();
     } catch (const BudgetError& error) {
-        throw BudgetError(fmt::format("'highlight' keeps whole words, and {}", error.what()));
+        throw BudgetError(fmt::format("'highlight' keeps whole words in memory: {}", error.what()));
     }
     if (traced.count == 0) {
         refuse_highlight(highlight, fmt::format("no production is applied in step {}", highlight.step));
     }
     if (highlight.symbol && *highlight.symbol > traced.count) {
-        refuse_highlight(highlight, fmt::format("step {} replaces only {} symbols", highlight.step, traced.count));
+        refuse_highlight(highlight, fmt::format("step {} replaces only {} {}", highlight.step, traced.count,
+                                                traced.count == 1 ? "symbol" : "symbols"));
     }
     const auto written = grammar.written_out(traced.word);
     if (!written)
-        throw BudgetError("'highlight' keeps whole words, and this one has more than 524,288 different modules");
+        throw BudgetError(
+            "'highlight' keeps whole words in memory: the word has more than 524,288 different modules");
     const int colours = static_cast<int>(lit_colours(style.ground).size());
     ColouredWord coloured(*written, colours, highlight.symbol, style.moves_draw());
     std::string fact =

@@ -1,4 +1,4 @@
-// art/product/highlight.h: lights the parts of a drawing that the productions of one step made.
+// art/product/highlight.h: colours the parts of a drawing that the productions of one step made.
 #pragma once
 
 #include "art/product/draw_settings.h"
@@ -15,10 +15,10 @@ struct LitDrawing {
     std::string fact;  ///< a remark: how many symbols the step replaced
 };
 
-/// Colours what each symbol that a step replaced has become in the finished drawing: in turn with six colours, or one
-/// in the first colour; everything else is pale. Edges of polygons keep their colour, so that tiles stay apart.
-/// Works with every system of words: tables, contexts, parameters, random choices, cuts, `interpret:`.
-/// Memory: the word and the one before it, 4 bytes a symbol for its origin.
+/// Colours the parts of a finished drawing that come from each symbol that a step replaced, in six colours in turn,
+/// or those of one symbol in the first colour; everything else is pale. Edges of polygons keep their colour. Works
+/// with every system of words: tables, contexts, parameters, random choices, cuts, `interpret:`. Memory: two
+/// successive words, and 4 bytes for the origin of each symbol.
 /// @throws SettingError if there is no such step or symbol; BudgetError if the word is too long to be kept; WordError
 LitDrawing lit_drawing(const Grammar& grammar, const Style& style, const Highlight& highlight, double budget,
                        const Monitor& monitor);

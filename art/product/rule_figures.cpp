@@ -25,7 +25,7 @@ namespace {
 constexpr std::size_t most_figures = 24;
 constexpr double node_share = 0.03, letter_share = 0.1;  // of the size of a drawing
 
-/// A production of the file with a word that it replaces and its successor, if they are known.
+/// A production of the file, with a word that it replaces and the successor, if they are known.
 struct ShownProduction {
     std::string before, after;
     const Production* production = nullptr;
@@ -46,7 +46,7 @@ std::string in_one_line(std::string_view text) {
     return result;
 }
 
-/// The productions of all tables, each once, without those that replace a word by itself.
+/// Returns the productions of all tables, each once, without those that replace a word by itself.
 std::vector<ShownProduction> productions_of(const Document& document) {
     const Pattern& pattern = document.pattern();
     const std::vector<Table>& tables = document.grammar().tables();
@@ -100,7 +100,7 @@ ModuleWord module_part(const Grammar& grammar, const ModuleWord& word, std::size
     return part;
 }
 
-/// Finds words for productions with parameters in the derivation itself, up to words of 20,000 symbols.
+/// Finds the first application of each production with parameters, in words of up to 20,000 symbols.
 void find_applications(const Grammar& grammar, std::vector<ShownProduction>& list, double nodes,
                        const Monitor& monitor) {
     constexpr std::uint64_t longest = 20'000;
@@ -157,7 +157,7 @@ void find_applications(const Grammar& grammar, std::vector<ShownProduction>& lis
     }
 }
 
-/// Letters that draw nothing and that productions replace.
+/// Returns the letters that draw nothing and that productions replace.
 std::vector<std::string> node_letters(const Grammar& grammar) {
     std::set<std::string> names;
     for (const Table& table : grammar.tables()) {
@@ -176,7 +176,7 @@ std::vector<std::string> node_letters(const Grammar& grammar) {
     return {names.begin(), names.end()};
 }
 
-/// The same pattern, whose nodes write their letters.
+/// Returns the pattern with labels for its nodes.
 Document with_letters(const Document& document) {
     std::vector<Setting> settings;
     for (const std::string& letter : node_letters(document.grammar())) {
@@ -186,7 +186,7 @@ Document with_letters(const Document& document) {
     try {
         return document.with(settings);
     } catch (const PatternError&) {
-        return document;  // the letters have labels
+        return document;  // the letters already have labels
     }
 }
 
@@ -290,7 +290,7 @@ public:
         }
         if (left_out > 0) {
             result.sentences.push_back(
-                fmt::format("{} further productions are left out after the first {}", left_out, most_figures));
+                fmt::format("productions after the first {} are left out: {}", most_figures, left_out));
         }
         result.style = style_;
         return result;
@@ -391,7 +391,7 @@ private:
         if (square < 1e-18 || glm::dot(to, to) < 1e-18) return {0, 0};
         return glm::dvec2(glm::dot(to, from), to.y * from.x - to.x * from.y) / square;
     }
-    /// What becomes of a step in a step of the derivation, by the first production that replaces one; 0 if none does.
+    /// Factor by which the first production that replaces a turtle step enlarges it; 0 if no production does.
     glm::dvec2 growth_of_steps() const {
         for (const Table& table : grammar_.tables()) {
             for (const Production& production : table.productions()) {
@@ -422,7 +422,7 @@ private:
 
     double heading() const { return grammar_.heading().degrees; }
 
-    /// The word with dots and names for its nodes, larger and turned.
+    /// Returns the word with dots and names for its nodes, scaled and turned.
     std::shared_ptr<const Grammar> decorated(const Grammar& word, double size, const Box* tile, double scale,
                                              double turn) const {
         CommandWord built(word);
@@ -465,7 +465,7 @@ private:
         return std::move(built).grammar(*lettered(2 * size));
     }
 
-    /// Width of the strokes of letters, in the unit that words set widths in.
+    /// Width of the strokes of letters, in the unit of widths in words.
     double letter_width(double size) const {
         constexpr double of_page = 190;  // millimetres that a drawing fills on A4
         const double share = 0.011;

@@ -1,4 +1,4 @@
-// art/product/rule_figures.h: productions as drawings of what they replace and of what replaces it.
+// art/product/rule_figures.h: drawings of productions: the predecessor and the successor of each.
 #pragma once
 
 #include "art/style/style.h"
@@ -11,7 +11,7 @@
 
 namespace sikku {
 
-/// One production. Both drawings are in one system of coordinates: an edge ends where the path that replaces it ends.
+/// One production. Both drawings have the same coordinates: an edge ends where the path that replaces it ends.
 struct RuleFigure {
     std::string before, after;  ///< as the file writes them
     std::shared_ptr<const Grammar> predecessor, successor;
@@ -23,11 +23,11 @@ struct RuleFigures {
     Style style;                         ///< of the drawings, plain, with colours for letters and tiles
 };
 
-/// Makes the drawings of the productions of a pattern that derives words, in the order of the file; those under
-/// `interpret:` are applied, and not drawn themselves. Productions with parameters are drawn with the values of their
-/// first application. Letters that draw nothing are dots with their names; as predecessors they are tiles, which the
-/// drawing of their successor fills, with dots where it begins and ends.
-/// @param nodes  budget of the derivation that finds values of parameters
+/// Draws the productions of a pattern that derives words, in the order of the file. Productions under `interpret:`
+/// are applied, but not drawn. Productions with parameters use the values of their first application. A letter that
+/// draws nothing is a dot with its name; as a predecessor it is a tile of the size of its successor, with dots where
+/// the successor begins and ends.
+/// @param nodes  budget of the derivation that finds the values of parameters
 RuleFigures rule_figures(const Document& document, const Style& style, double nodes, const Monitor& monitor);
 
 }  // namespace sikku

@@ -1,5 +1,5 @@
-// art/product/rule_print.cpp: the productions of a pattern, each with an arrow from what it replaces to what replaces
-// it.
+// art/product/rule_print.cpp: a print of the productions of a pattern: predecessor, arrow and successor of
+// each.
 #include "art/product/cell_rows.h"
 #include "art/product/plot_remarks.h"
 #include "art/product/print_cell.h"
@@ -26,7 +26,7 @@ struct RulePlaces {
     double across = 0, down = 0;
 };
 
-/// The columns for which the drawings are largest.
+/// Returns the places with the number of columns that makes the drawings largest.
 RulePlaces places_of(std::size_t count, const Window& room, double caption) {
     constexpr double arrow_share = 0.13, gap = 0.06;
     RulePlaces best;

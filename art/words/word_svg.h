@@ -21,7 +21,7 @@ struct WordFigure {
 /// characters.
 WordFigure word_figure(const Pattern& pattern);
 
-/// Words one below the other: symbols that the next step replaces are lit, and joined to those that replace them.
+/// Words one below the other: symbols that the next step replaces are red, and joined to those that replace them.
 std::string words_svg(const WordTable& table, const WordFigure& figure);
 
 /// The derivation tree: a node for each symbol of each word, one level for each step. Subtrees are as close as their

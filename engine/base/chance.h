@@ -14,7 +14,7 @@ constexpr std::uint64_t scrambled(std::uint64_t bits) {
     return bits ^ (bits >> 31);
 }
 
-/// Returns the number of which scrambled() makes `bits`.
+/// The inverse of scrambled(): returns the number that it maps to `bits`.
 constexpr std::uint64_t unscrambled(std::uint64_t bits) {
     bits = (bits ^ (bits >> 31) ^ (bits >> 62)) * 0x319642B2D24D8EC3U;
     bits = (bits ^ (bits >> 27) ^ (bits >> 54)) * 0x96DE1B173F119089U;
@@ -38,7 +38,7 @@ private:
     std::uint64_t state_;
 };
 
-/// The number of which scrambled() makes the place of a child.
+/// Returns the number that scrambled() maps to the place of a child.
 constexpr std::uint64_t child_key(std::uint64_t parent, std::uint64_t index) {
     return parent + 0x9E3779B97F4A7C15U * (index + 1);
 }

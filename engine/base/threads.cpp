@@ -114,7 +114,7 @@ void hand_over_in_order(std::size_t places, int threads, const std::function<boo
         states[place] = done;
         states[place].notify_all();
     };
-    // In an arena of its own, a waiting thread takes up no other work of the program.
+    // In its own arena, a waiting thread starts no other work of the program.
     on_threads(allowed, [&] {
         tbb::task_group group;
         std::size_t prepared = 0;
@@ -138,7 +138,7 @@ void hand_over_in_order(std::size_t places, int threads, const std::function<boo
                 if (delivered == prepared) break;
                 const std::size_t place = delivered % places;
                 try_to_work(place);
-                // While another thread has this one, takes up those behind it.
+                // While another thread works on this place, works on later ones.
                 for (std::size_t i = delivered + 1; i < prepared && states[place] != done; ++i)
                     try_to_work(i % places);
                 for (int state = states[place]; state != done; state = states[place]) states[place].wait(state);

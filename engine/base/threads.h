@@ -32,10 +32,11 @@ void run_both(const std::function<void()>& first, const std::function<void()>& s
 void in_order(std::size_t count, std::size_t places, const std::function<void(std::size_t, std::size_t)>& work,
               const std::function<void(std::size_t, std::size_t)>& deliver);
 
-/// Calls `prepare(place)` until it returns false, `work(place)` after each of the others, in parallel, and then
-/// `deliver(place)` in the same order. All but `work`, which must not throw, are called by the calling thread. Places
-/// are numbers below `places`, each in use from `prepare` to `deliver`. Exceptions end the work and are passed on.
-/// @param threads  at most so many
+/// Calls `prepare(place)` until it returns false. After each call that returns true, `work(place)` runs in parallel;
+/// then `deliver(place)` is called in the order of `prepare`. The calling thread calls `prepare` and `deliver`.
+/// `work` must not throw. Places are numbers below `places`, each in use from `prepare` to `deliver`. Exceptions end
+/// the work.
+/// @param threads  maximum number of threads
 void hand_over_in_order(std::size_t places, int threads, const std::function<bool(std::size_t)>& prepare,
                         const std::function<void(std::size_t)>& work,
                         const std::function<void(std::size_t)>& deliver);

@@ -22,7 +22,7 @@ bool is_same(const ModuleWord& one, const ModuleWord& other) {
                       [](double a, double b) { return bit_cast<std::uint64_t>(a) == bit_cast<std::uint64_t>(b); });
 }
 
-/// The word of a derivation that keeps whole words: as bytes where that is possible, and else as modules.
+/// The word of a derivation that keeps whole words: as bytes if possible, otherwise as modules.
 class KeptWord {
 public:
     KeptWord(const Grammar& grammar, const DerivationOptions& options)
@@ -32,7 +32,7 @@ public:
         return has_bytes_ ? bytes_.size() : is_axiom_ ? grammar_.axiom().size() : modules_.symbols.size();
     }
 
-    /// Makes a step, counted from 1. Returns false if the word is the same, and the table would not change it later.
+    /// Makes a step, counted from 1. Returns false if the table changes the word neither now nor later.
     /// @throws BudgetError
     bool rewrite(const Table& table, std::int64_t step) {
         NearestSteps& nearest = nearest_.try_emplace(&table, grammar_, table).first->second;

@@ -30,8 +30,8 @@ public:
     virtual void symbols(const Run& run) = 0;
     /// Called once after the last run.
     virtual void finish() {}
-    /// The byte that each symbol becomes, for readers that only put those together; empty for others. Parts of the
-    /// word may then be passed to text() and not to symbols().
+    /// The byte of each symbol, for readers that only concatenate bytes; empty for other readers. If it is not empty,
+    /// parts of the word may be passed to text() instead of symbols().
     virtual std::string_view bytes() const { return {}; }
     virtual void text(std::string_view) {}
 };

@@ -13,12 +13,16 @@ namespace {
 constexpr std::size_t most_byte_symbols = 256;
 constexpr std::int64_t most_drawn_levels = 64;
 constexpr double least_expected = 1 << 17;  // symbols; shorter words are not worth the preparation
-constexpr double least_growth = 8;          // expected symbols for each one of the axiom
+constexpr double least_growth = 8;          // expected symbols for each symbol of the axiom
 constexpr std::size_t longest_beside = 20;  // text before a symbol, after it, or alone
 constexpr std::size_t most_kinds = 4096;    // at all levels together
 constexpr std::size_t most_table_entries = std::size_t{1} << 16;  // of the tables of a level
+<<<<<<< HEAD
 constexpr double usual_root = 1 << 13;    // symbols that become of a module at low(), on average
 constexpr double largest_root = 1 << 15;  // memory for its expansion, in modules
+=======
+constexpr double usual_root = 1 << 13;                            // symbols of a module at low(), on average
+>>>>>>> work-b
 constexpr Symbol no_symbol = std::numeric_limits<Symbol>::max();
 
 // Texts at level 1: of a kind, its successor, of the kind.
@@ -166,7 +170,7 @@ bool DrawnLevels::add_alternatives(std::int64_t level) {
     return kind_count_ <= most_kinds;
 }
 
-/// Adds what a kind becomes: its successor, or, if that is null, itself.
+/// Adds the successor of a kind, or the kind itself if it has none.
 void DrawnLevels::add_alternative(std::int64_t level, const Kind& kind, const Choices::Successor* successor,
                                   std::vector<std::vector<Part>>& parts) {
     const auto& [symbol, before, after] = kind;

@@ -1,4 +1,4 @@
-// engine/derivation/drawn_levels.h: precomputed levels of an expansion in which only constant weights leave a choice.
+// engine/derivation/drawn_levels.h: precomputed levels of an expansion whose only choices have constant weights.
 #pragma once
 
 #include "engine/derivation/drawn_successors.h"
@@ -16,17 +16,17 @@
 
 namespace sikku {
 
-/// A module of an expansion. Modules of one kind have the same symbol, and the same text on both sides of it: symbols
-/// that no chance decides, one byte each.
+/// A module of an expansion. Modules of one kind have the same symbol and the same text on both sides: the symbols
+/// that do not depend on chance, one byte each.
 struct DrawnModule {
-    std::uint64_t key = 0;  ///< scrambled() makes the module's place of it
+    std::uint64_t key = 0;  ///< scrambled() maps it to the module's place
     std::uint32_t kind = 0;
 };
 
-/// One level: for each kind of module, the alternatives that replace it.
+/// One level: the alternatives that replace each kind of module.
 struct DrawnLevel {
     struct Child {
-        std::uint64_t add = 0;  ///< to base(), which makes its key
+        std::uint64_t add = 0;  ///< added to base(), gives its key
         std::uint32_t kind = 0;
     };
     std::int64_t step = 0;
@@ -59,8 +59,8 @@ class DrawnLevels {
 public:
     static constexpr std::size_t longest_text = 64;  ///< of an alternative
 
-    /// Is usable if the word is expected to be long, and if the grammar has at most 256 symbols, no parameters, and
-    /// weights that are constant. Cost: some microseconds for words that are not long.
+    /// Usable if the word is expected to be long and the grammar has at most 256 symbols, no parameters, and only
+    /// constant weights. Cost: a few microseconds for words that are not long.
     /// @param bytes  the byte of each symbol
     DrawnLevels(const Grammar& grammar, const Levels& levels, std::string_view bytes);
     bool is_usable() const { return is_usable_; }
@@ -69,8 +69,12 @@ public:
     const DrawnLevel& level(std::int64_t level) const { return drawn_[static_cast<std::size_t>(level)]; }
     /// The kind of a symbol of the axiom, at the highest level.
     std::uint32_t axiom_kind(Symbol symbol) const { return axiom_kinds_[symbol]; }
+<<<<<<< HEAD
     /// The highest level of which, and below which, expansions of modules take little memory whatever is chosen, and
     /// are expected to become few symbols each. Only up to this level are there `means` and `rooms`.
+=======
+    /// The highest level whose modules are expected to yield few symbols each.
+>>>>>>> work-b
     std::int64_t low() const { return low_; }
 
 private:
@@ -100,7 +104,7 @@ private:
     std::string_view bytes_;
     bool is_usable_ = false;
     std::map<const Table*, std::unique_ptr<Choices>> choices_;
-    std::vector<std::vector<Text>> texts_;  // by level and symbol, what becomes of it if that is one short text
+    std::vector<std::vector<Text>> texts_;                // by level and symbol, its short text if it has only one
     std::vector<std::map<Kind, std::uint32_t>> numbers_;  // by level
     std::vector<std::vector<Kind>> kinds_;                // by level
     std::size_t kind_count_ = 0;

@@ -1,4 +1,4 @@
-// engine/derivation/drawn_streamer.cpp: expands long words by random choices with constant weights, part by part, on
+// engine/derivation/drawn_streamer.cpp: expands long words with random choices of constant weights, part by part, on
 // several threads.
 #include "engine/base/threads.h"
 #include "engine/derivation/drawn_levels.h"
@@ -62,7 +62,7 @@ private:
     std::vector<ShortText<DrawnLevels::longest_text>> long_;
 };
 
-/// Writes the children of modules. Returns their end.
+/// Writes the children of modules. Returns the end of the children.
 /// @param out  has room for the most children of each
 DrawnModule* expand(const DrawnLevel& level, const DrawnModule* from, const DrawnModule* end, DrawnModule* out) {
     const std::size_t most = level.most;
@@ -77,7 +77,7 @@ DrawnModule* expand(const DrawnLevel& level, const DrawnModule* from, const Draw
     return out;
 }
 
-/// A part of the word: consecutive modules, and what becomes of them.
+/// A part of the word: consecutive modules and their expansion.
 class WordPart {
 public:
     void clear() {
@@ -163,12 +163,12 @@ private:
     std::array<std::vector<DrawnModule>, 2> above_;  // by level, modulo 2
     std::vector<DrawnModule> lowest_;
     std::string text_;
-    std::size_t size_ = 0;  // of what is written of it
+    std::size_t size_ = 0;  // of the text written for it
     std::uint64_t nodes_ = 0;
     std::exception_ptr error_;
 };
 
-/// Divides a word into parts, depth first, and hands them over.
+/// Divides a word into parts, depth first, and delivers them in order.
 class DrawnStreamer {
 public:
     DrawnStreamer(const Grammar& grammar, const DrawnLevels& levels, const DerivationOptions& options,
@@ -203,7 +203,7 @@ private:
         std::int64_t level;  // of the children
     };
 
-    /// Gathers the roots of the next part; false if nothing is left.
+    /// Collects the roots of the next part. Returns false if nothing is left.
     bool fill(WordPart& part) {
         part.clear();
         while (!part.is_full()) {

@@ -73,9 +73,9 @@ void stream_symbols(const Grammar& grammar, const Levels& levels, const Derivati
 /// @throws BudgetError, WordError
 void stream_modules(const Grammar& grammar, const Levels& levels, const DerivationOptions& options, SymbolSink& sink);
 
-/// Expands the axiom of a grammar whose random choices have constant weights, if the word is expected to be long: on
-/// several threads, part by part, in order. Everything but these parts is done by the calling thread, and all numbers
-/// of threads do the same. Returns false, having done nothing, for other grammars. Does not finish the sink.
+/// Expands the axiom of a grammar whose random choices have constant weights, if the word is expected to be long.
+/// Several threads expand parts; the calling thread delivers them in order. The result does not depend on the number
+/// of threads. For other grammars, does nothing and returns false. Does not finish the sink.
 /// Memory: about half a megabyte for each thread. @throws BudgetError
 bool stream_drawn(const Grammar& grammar, const Levels& levels, const DerivationOptions& options, SymbolSink& sink);
 

@@ -1,4 +1,4 @@
-// engine/derivation/lineage.h: the words of successive steps, and which symbol each symbol comes from.
+// engine/derivation/lineage.h: the words of successive steps, and the parent of each symbol.
 #pragma once
 
 #include "engine/base/monitor.h"
@@ -22,7 +22,7 @@ struct StepOrigins {
     std::vector<std::uint32_t> applied;
 };
 
-/// As rewrite() in derivation.h. @param origins  receives where the symbols of the result come from
+/// Like rewrite() in derivation.h. @param origins  receives the origins of the symbols of the result
 ModuleWord rewrite(const Grammar& grammar, const Table& table, const ModuleWord& word, std::int64_t step,
                    const DerivationOptions& options, StepOrigins& origins);
 
@@ -31,8 +31,8 @@ struct LineageWord {
     std::int64_t steps = 0;
     bool is_interpreted = false;  ///< the last word, with `interpret:` applied
     ModuleWord word;
-    std::vector<std::uint32_t> parents;  ///< as StepOrigins, in the word before; empty for the first
-    std::vector<std::uint32_t> applied;  ///< as StepOrigins, in the step after; empty for the last
+    std::vector<std::uint32_t> parents;  ///< as in StepOrigins, in the word before; empty for the first word
+    std::vector<std::uint32_t> applied;  ///< as in StepOrigins, in the step after; empty for the last word
     const Table* next = nullptr;         ///< table of the step after, in the grammar; null for the last
 };
 
@@ -42,7 +42,7 @@ struct WordLineageLimits {
 };
 
 /// Derives the words after `first`, `first` + 1, … `last` steps of `grammar`, whose derivation length is `last`; with
-/// `interpreted`, also the word that `interpret:` makes of the last, if the pattern has one.
+/// `interpreted`, also the last word with `interpret:` applied, if the pattern has it.
 /// @throws BudgetError that names the step; WordError; Stopped
 std::vector<LineageWord> word_lineage(const Grammar& grammar, std::int64_t first, std::int64_t last, bool interpreted,
                                       const WordLineageLimits& limits, const Monitor& monitor = {});

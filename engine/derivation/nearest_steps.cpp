@@ -56,17 +56,17 @@ void RawBytes::resize(std::size_t size) {
         if (size > std::numeric_limits<std::size_t>::max() / 4) throw std::bad_alloc();
         bytes_.reset();
         room_ = 0;
-        // What is not written takes no memory.
+        // Memory that is not written is not allocated.
         bytes_.reset(new std::uint8_t[2 * size]);
         room_ = 2 * size;
     }
     size_ = size;
 }
 
-/// Where a scan of a word is.
+/// The state of a scan.
 struct NearestSteps::Scan {
     std::uint8_t seen = 0;
-    std::vector<std::uint8_t> open = {0};  // for each open branch what was seen before it, above an unused 0
+    std::vector<std::uint8_t> open = {0};  // for each open branch, the class seen before it, above an unused 0
     std::ptrdiff_t depth = 1;
     std::uint64_t length = 0;  // of the outcomes
 
@@ -104,7 +104,7 @@ NearestSteps::NearestSteps(const Grammar& grammar, const Table& table) {
             return result;
         };
         Turn right = turn(kind.left * rows, kind.is_push, kind.is_pop);
-        // Behind `[` a production sees what is before it.
+        // Behind `[`, the left context is the symbol before it.
         if (kind.is_push && !kind.is_ignored) right = {0xFF, 0, 0, 1};
         to_right_.push_back(right);
         to_left_.push_back(turn(kind.right, kind.is_pop, kind.is_push));
@@ -182,7 +182,7 @@ std::uint8_t* NearestSteps::write(std::size_t begin, std::size_t end, std::uint8
     const Text* const texts = texts_.data();
     constexpr std::size_t eight = 8;
     while (end - begin > eight && out_end - out >= static_cast<std::ptrdiff_t>(2 * eight)) {
-        // Most symbols become one symbol: up to eight of these, and one more of any kind.
+        // Most symbols are replaced by one symbol: up to eight of these, then one of any kind.
         std::uint64_t next;
         std::memcpy(&next, marks + begin, eight);
         std::memcpy(out, &next, eight);

@@ -13,7 +13,7 @@
 
 namespace sikku {
 
-/// Bytes that are not initialized, and not kept when they grow.
+/// Uninitialized bytes, which are lost when the buffer grows.
 class RawBytes {
 public:
     std::uint8_t* data() { return bytes_.get(); }
@@ -31,8 +31,8 @@ private:
 /// A word of at most 128 different symbols.
 using ByteWord = RawBytes;
 
-/// The steps of one table of a plain grammar, if its productions rewrite one symbol and look at most at the nearest
-/// one on each side. Memory: 1 byte for each symbol of a word, besides the words.
+/// The steps of one table of a plain grammar whose productions rewrite one symbol and have contexts of at most one
+/// symbol on each side. Memory: 1 byte for each symbol of a word, in addition to the words.
 class NearestSteps {
 public:
     NearestSteps(const Grammar& grammar, const Table& table);
@@ -44,14 +44,14 @@ public:
                           const std::function<void()>& watch);
 
 private:
-    /// How a scan goes on behind a symbol.
+    /// How a symbol changes the state of a scan.
     struct Turn {
         std::uint8_t keep = 0;  ///< of the class that was seen last
         std::uint8_t take = 0;  ///< of the class that was seen before the branch
         std::uint8_t set = 0;   ///< class of the symbol itself
         std::int8_t opens = 0;  ///< 1: a branch, from this side; -1: closes it
     };
-    /// What becomes of a symbol: another one, or, from `first_text`, that text.
+    /// What replaces a symbol: another symbol, or, from `first_text` on, a text.
     struct Outcome {
         std::uint8_t code = 0;
         std::uint8_t length = 1;
@@ -63,11 +63,11 @@ private:
     };
     struct Scan;
 
-    /// Stores for the symbols in a part of the word what is seen on one side, or, if the other side is known, what
-    /// becomes of them.
+    /// Stores for each symbol in a part of the word the class seen on one side, or, if the other side is known, its
+    /// outcome.
     template <bool to_left, bool is_second>
     void look(Scan& scan, std::size_t begin, std::size_t end);
-    /// Writes what becomes of a part of the word, up to the end of its half. Returns the end of what is written.
+    /// Writes the outcomes of a part of the word, up to the end of its half. Returns the end of the output.
     std::uint8_t* write(std::size_t begin, std::size_t end, std::uint8_t* out, const std::uint8_t* out_end) const;
 
     static constexpr std::uint8_t first_text = 128;
@@ -80,7 +80,7 @@ private:
     std::array<Text, 256> texts_{};
     std::vector<std::uint8_t> pool_;
     const std::uint8_t* word_ = nullptr;
-    RawBytes marks_;  // of each symbol a class, and then its outcome
+    RawBytes marks_;  // for each symbol, first a class and then its outcome
 };
 
 }  // namespace sikku

@@ -18,7 +18,7 @@ namespace {
 /// For each symbol of a new word, the index of its predecessor.
 using Parents = std::vector<std::uint32_t>;
 
-/// Receives where the symbols of a new word come from; each part may be null.
+/// Receives the origins of the symbols of a new word; each pointer may be null.
 struct Trace {
     Parents* parents = nullptr;
     std::vector<std::uint32_t>* applied = nullptr;  ///< as in StepOrigins

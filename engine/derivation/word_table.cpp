@@ -92,7 +92,7 @@ public:
         return needs_blank(grammar_, word[first], word[first + 1]) ? 1 : 0;
     }
 
-    /// Places symbols with the same parent, and what comes from them, from a column on.
+    /// Places symbols with the same parent, and their descendants, from a column on.
     void place(std::size_t row, std::size_t first, std::size_t count, std::size_t column, std::size_t leaf) {
         struct Task {
             std::size_t row, first, count, column, leaf;
@@ -221,7 +221,7 @@ std::string latex_escaped(std::string_view text) {
                 break;
             case '[':
             case ']':
-                result += fmt::format("{{{}}}", byte);  // after `\\` it would be its argument
+                result += fmt::format("{{{}}}", byte);  // directly after `\\`, it would start an argument
                 break;
             default:
                 result += byte;
@@ -289,7 +289,7 @@ std::string words_as_text(const WordTable& table, std::size_t wrap) {
 }
 
 std::string words_as_markdown(const WordTable& table, std::size_t wrap, const std::string& title) {
-    // A fence that is longer than any in the words.
+    // The fence is longer than any in the words.
     const std::string text = words_as_text(table, wrap);
     std::size_t longest = 2, run = 0;
     for (const char byte : text) {
@@ -307,7 +307,7 @@ std::string words_as_markdown(const WordTable& table, std::size_t wrap, const st
 
 std::string words_as_latex(const WordTable& table, const std::string& title) {
     std::string text = fmt::format(
-        "% {}Symbols that the next step replaces are underlined: \\replaced can be redefined.\n"
+        "% {}Symbols that the next step replaces are underlined by \\replaced.\n"
         "\\providecommand{{\\replaced}}[1]{{\\underline{{\\smash{{#1}}}}}}\n"
         "\\begin{{center}}\\ttfamily\\setlength{{\\tabcolsep}}{{1pt}}\n"
         "\\begin{{tabular}}{{r@{{\\quad}}*{{{}}}{{c}}}}\n",

@@ -16,16 +16,16 @@ struct TableSymbol {
     std::string text;
     std::size_t width = 1;   ///< of the text in columns
     std::size_t column = 0;  ///< first column of the text
-    std::size_t begin = 0;   ///< columns of the symbol and of everything that comes from it
+    std::size_t begin = 0;   ///< columns of the symbol and of its descendants
     std::size_t end = 0;
     std::size_t parent = 0;       ///< index in the row above
     std::size_t first_child = 0;  ///< index in the row below
     std::size_t children = 0;
     std::size_t leaf = 0;      ///< number of symbols without children to the left, in all rows
-    std::size_t leaves = 1;    ///< symbols without children that come from it, or itself
+    std::size_t leaves = 1;    ///< its descendants without children, or the symbol itself
     bool is_replaced = false;  ///< a production replaces it in the next step
-    std::size_t replaced = 1;  ///< symbols that the production replaces, from this one on; 0: one before is the first
-    bool is_joined = false;    ///< stands directly behind the symbol before it, with which it is replaced
+    std::size_t replaced = 1;  ///< symbols that the production replaces, from this one on; 0: not the first
+    bool is_joined = false;    ///< replaced together with the symbol before it, without a blank between
     bool is_cut = false;       ///< the next step removes it
 };
 

@@ -70,7 +70,7 @@ async function checkAccess(page, what) {
     assert.deepEqual(violations.map(({ id, nodes }) => `${what}: ${id}: ${nodes[0].html.slice(0, 160)}`), []);
 }
 
-// Firefox does not tell Playwright of downloads: keeps what a link would save.
+// Playwright does not see downloads of Firefox: keeps what a link would save.
 function keepDownloads() {
     globalThis.saved = [];
     const blobs = new Map();

@@ -184,7 +184,7 @@ std::vector<Feature> features() {
         {"base of a relief", shape, {}, {{"relief", ""}, {"base", "3mm,2mm"}}, {{"relief", ""}}},
         {"grooves", squares, {}, {{"relief", ""}, {"groove", "2mm"}}, {{"relief", ""}}},
         {"tiles", kolam, {}, {{"tile", "60x60mm"}}, {}},
-        {"lit step", kolam, {}, {{"highlight", "1"}}, {}},
+        {"highlighted step", kolam, {}, {{"highlight", "1"}}, {}},
         {"productions", kolam, {}, {{"rule", "true"}}, {}},
         {"sheet of generations", kolam, {}, {{"generations", "0:2"}}, {}},
         {"frames", kolam, {}, {{"generations", "0:2"}, {"frames", "true"}}, {}}};

@@ -180,7 +180,7 @@ TEST(RuleFigures, TilesGrowAsStepsDo) {
     EXPECT_EQ(found.sentences, std::vector<std::string>{"f → −f++f− draws nothing"});
 }
 
-TEST(RuleFigures, HaveTheValuesOfTheirFirstApplication) {
+TEST(RuleFigures, UseTheValuesOfTheFirstApplication) {
     // Equation 8 of the same paper: F(s) --> F(s/3) …, applied to F(1).
     const RuleFigures found = figures_of(load("snowflake"));
     EXPECT_NEAR(survey_of(*found.figures.front().successor).length, 4.0 / 3, 1e-9);
@@ -190,14 +190,14 @@ TEST(RuleFigures, HaveTheValuesOfTheirFirstApplication) {
     EXPECT_EQ(none.sentences.front(), "F(s) : s > 5 → F(s)F(s) is not drawn: no step up to n = 2 applies it");
 }
 
-TEST(RuleFigures, BracketsThatDoNotCloseAreASentence) {
+TEST(RuleFigures, ReportsBracketsThatDoNotClose) {
     const RuleFigures found = figures_of(parse("open", "axiom: A]\nderivation length: 1\nA --> [F\n"));
     EXPECT_TRUE(found.figures.empty());
     ASSERT_EQ(found.sentences.size(), 1U);
     EXPECT_TRUE(has(found.sentences.front(), "is not drawn alone"));
 }
 
-// Lit steps
+// Highlighted steps
 
 /// Numbers of segments, by the index of their colour.
 class SegmentCounter : public PathSink {
@@ -266,7 +266,7 @@ TEST(Highlight, ColoursTiles) {
     EXPECT_EQ(all, 64U);
 }
 
-TEST(Highlight, RefusesWhatIsNotThere) {
+TEST(Highlight, RefusesStepsAndSymbolsThatDoNotExist) {
     const Document island = pattern_of("koch-island", 2);
     EXPECT_TRUE(has(error_of([&] { draw(island, "svg", {{"highlight", "3"}}); }), "derivation length, 2"));
     EXPECT_TRUE(has(error_of([&] { draw(island, "svg", {{"highlight", "1:5"}}); }), "replaces only 4 symbols"));

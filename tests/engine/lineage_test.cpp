@@ -19,7 +19,7 @@ std::vector<LineageWord> lineage(const Grammar& grammar, std::int64_t first, boo
     return word_lineage(grammar, first, grammar.steps(), interpreted, limits);
 }
 
-/// A word as derive() gives it.
+/// The word that derive() returns.
 class Reader : public SymbolSink {
 public:
     void symbols(const Run& run) override {
@@ -62,7 +62,7 @@ const std::vector<std::pair<const char*, int>> systems = {
     {"snowflake", 3},      {"branch-shedding", 8},    {"dragon-subword", 5}, {"stochastic-branches", 4},
     {"insect-attack", 10}, {"parametric-example", 3}, {"bush-3d", 3},        {"capsella-by-chance", 9}};
 
-TEST(Lineage, IsTheDerivation) {
+TEST(Lineage, DerivesTheSameWordsAsDerive) {
     for (const auto& [name, steps] : systems) {
         SCOPED_TRACE(name);
         const Grammar grammar = load(name, {"", {{"derivation length", std::to_string(steps)}}}).grammar();
@@ -136,7 +136,7 @@ TEST(Lineage, StopsAtItsLimits) {
     EXPECT_TRUE(has(error, "step 5")) << error;
 }
 
-TEST(WordTable, StandsAboveWhatReplacesIt) {
+TEST(WordTable, PlacesSymbolsAboveThoseThatReplaceThem) {
     for (const auto& [name, steps] : systems) {
         SCOPED_TRACE(name);
         const Grammar grammar =
@@ -163,7 +163,7 @@ TEST(WordTable, StandsAboveWhatReplacesIt) {
     }
 }
 
-TEST(WordTable, IsTextMarkdownAndLatex) {
+TEST(WordTable, WritesTextMarkdownAndLatex) {
     const Grammar grammar = load("fibonacci-words", {"", {{"derivation length", "4"}}}).grammar();
     const WordTable table = lay_out_words(grammar, lineage(grammar, 2));
     EXPECT_EQ(words_as_text(table, 0),

@@ -1,4 +1,4 @@
-// Long words that several threads derive: by chance without parameters, and in whole words with contexts.
+// Long words derived by several threads: with random choices and without parameters, and with contexts.
 #include "engine/base/chance.h"
 #include "engine/base/monitor.h"
 #include "engine/base/threads.h"
@@ -87,7 +87,7 @@ ModuleWord rewritten(const Grammar& grammar, const DerivationOptions& options = 
     return word;
 }
 
-/// derive() makes the word that rewriting step by step makes, with any number of threads, as symbols and as text.
+/// Compares derive(), with any number of threads, as symbols and as text, with rewriting step by step.
 void expect_rewritten(const Grammar& grammar, std::size_t least, bool interpreted = false) {
     DerivationOptions options;
     options.interpreted = interpreted;
@@ -176,7 +176,7 @@ TEST(ParallelChance, MakesTheWordOfRandomSystems) {
     EXPECT_GE(compared, 10);
 }
 
-/// What happens until a derivation ends in an error.
+/// Symbols and message of a derivation that ends in an error.
 struct End {
     std::string message;
     std::uint64_t count = 0;
@@ -219,7 +219,7 @@ TEST(ParallelChance, EndsAtTheSameSymbol) {
     }
 }
 
-/// Accepts so many symbols.
+/// Accepts a limited number of symbols.
 class Thrower : public Digest {
 public:
     explicit Thrower(std::uint64_t most) : most_(most) {}

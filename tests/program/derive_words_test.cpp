@@ -63,7 +63,7 @@ TEST(DeriveWords, RefusesWithAReason) {
         {{"--generations", "0:5", "--format", "pdf"}, 2, "expected text, markdown, latex or svg"},
         {{"--generations", "0:5"}, 1, "--wrap 100"},
         {{"--generations", "0:4", "--format", "latex"}, 1, "columns"},
-        {{"--tree", "--format", "text"}, 2, "a tree is SVG"},
+        {{"--tree", "--format", "text"}, 2, "a tree is written as SVG"},
         {{"--tree", "-n", "30"}, 1, "a tree has at most 2000"},
         {{"--format", "text"}, 2, "needs --generations or --tree"},
         {{"--wrap", "80"}, 2, "needs --generations or --tree"},

@@ -111,8 +111,8 @@ std::regex pattern_of(const std::vector<std::string>& lines) {
     return std::regex(all);
 }
 
-/// Does what a page says, in one folder for each of its parts, and compares what it shows. Returns the number of
-/// comparisons.
+/// Runs the commands of a page, in one folder for each section, and compares their output with the page. Returns the
+/// number of comparisons.
 int compare_page(const std::string& page) {
     const std::string path = std::filesystem::path(SIKKU_PROGRAM).parent_path().string() + ":/usr/bin:/bin";
     const std::string text = contents(root / "docs" / page);
