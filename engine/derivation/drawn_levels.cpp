@@ -17,12 +17,8 @@ constexpr double least_growth = 8;          // expected symbols for each symbol 
 constexpr std::size_t longest_beside = 20;  // text before a symbol, after it, or alone
 constexpr std::size_t most_kinds = 4096;    // at all levels together
 constexpr std::size_t most_table_entries = std::size_t{1} << 16;  // of the tables of a level
-<<<<<<< HEAD
-constexpr double usual_root = 1 << 13;    // symbols that become of a module at low(), on average
-constexpr double largest_root = 1 << 15;  // memory for its expansion, in modules
-=======
 constexpr double usual_root = 1 << 13;                            // symbols of a module at low(), on average
->>>>>>> work-b
+constexpr double largest_root = 1 << 15;                          // memory for its expansion, in modules
 constexpr Symbol no_symbol = std::numeric_limits<Symbol>::max();
 
 // Texts at level 1: of a kind, its successor, of the kind.

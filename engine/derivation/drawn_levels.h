@@ -69,12 +69,8 @@ public:
     const DrawnLevel& level(std::int64_t level) const { return drawn_[static_cast<std::size_t>(level)]; }
     /// The kind of a symbol of the axiom, at the highest level.
     std::uint32_t axiom_kind(Symbol symbol) const { return axiom_kinds_[symbol]; }
-<<<<<<< HEAD
-    /// The highest level of which, and below which, expansions of modules take little memory whatever is chosen, and
-    /// are expected to become few symbols each. Only up to this level are there `means` and `rooms`.
-=======
-    /// The highest level whose modules are expected to yield few symbols each.
->>>>>>> work-b
+    /// The highest level up to which the expansion of a module takes little memory whatever is chosen, and is
+    /// expected to yield few symbols. `means` and `rooms` end at this level or the next.
     std::int64_t low() const { return low_; }
 
 private:
