@@ -12,29 +12,33 @@ export function unpackLzma(packed: Uint8Array, size: number): Uint8Array<ArrayBu
     const probabilities = (count: number) => new Uint16Array(count).fill(1024);
 
     let next = 2; // the first byte of the data is 0
-    let range = 0xffffffff;
-    let code = 0;
-    for (let i = 0; i < 4; ++i) code = ((code << 8) | packed[next++]!) >>> 0;
+    // Range and code. Variables that closures share would hold numbers above 2^30 in objects of their own, which takes
+    // three times as long.
+    const coder = new Uint32Array([0xffffffff, 0]);
+    for (let i = 0; i < 4; ++i) coder[1] = (coder[1]! << 8) | packed[next++]!;
 
-    function normalise(): void {
-        if (range >= 0x1000000) return;
-        range = (range << 8) >>> 0;
-        code = ((code << 8) | packed[next++]!) >>> 0;
-    }
     function bit(of: Uint16Array, index: number): number {
         const probability = of[index]!;
+        let range = coder[0]!;
+        let code = coder[1]!;
         const bound = (range >>> 11) * probability;
+        let one = 0;
         if (code < bound) {
             range = bound;
             of[index] = probability + ((2048 - probability) >> 5);
-            normalise();
-            return 0;
+        } else {
+            range -= bound;
+            code -= bound;
+            of[index] = probability - (probability >> 5);
+            one = 1;
         }
-        range = (range - bound) >>> 0;
-        code = (code - bound) >>> 0;
-        of[index] = probability - (probability >> 5);
-        normalise();
-        return 1;
+        if (range < 0x1000000) {
+            range = (range << 8) >>> 0;
+            code = ((code << 8) | packed[next++]!) >>> 0;
+        }
+        coder[0] = range;
+        coder[1] = code;
+        return one;
     }
     function bitTree(of: Uint16Array, base: number, bits: number): number {
         let symbol = 1;
@@ -52,14 +56,21 @@ export function unpackLzma(packed: Uint8Array, size: number): Uint8Array<ArrayBu
         return value;
     }
     function directBits(count: number): number {
+        let range = coder[0]!;
+        let code = coder[1]!;
         let value = 0;
         for (let i = 0; i < count; ++i) {
             range >>>= 1;
             const one = code >= range ? 1 : 0;
-            if (one) code = (code - range) >>> 0;
+            if (one) code -= range;
             value = (value << 1) | one;
-            normalise();
+            if (range < 0x1000000) {
+                range = (range << 8) >>> 0;
+                code = ((code << 8) | packed[next++]!) >>> 0;
+            }
         }
+        coder[0] = range;
+        coder[1] = code;
         return value;
     }
     function lengthDecoder(): (posState: number) => number {
