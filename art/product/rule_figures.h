@@ -19,7 +19,7 @@ struct RuleFigure {
 
 struct RuleFigures {
     std::vector<RuleFigure> figures;
-    std::vector<std::string> sentences;  ///< about the productions that are not drawn
+    std::vector<std::string> sentences;  ///< about productions that are not drawn: three, and numbers of others
     Style style;                         ///< of the drawings, plain, with colours for letters and tiles
 };
 
@@ -27,7 +27,7 @@ struct RuleFigures {
 /// `interpret:` are applied, and not drawn themselves. Productions with parameters are drawn with the values of their
 /// first application. Letters that draw nothing are dots with their names; as predecessors they are tiles, which the
 /// drawing of their successor fills, with dots where it begins and ends.
-/// @param nodes  budget of the derivation that finds values of parameters
+/// @param nodes  budget of the derivation that finds values of parameters; it visits at most 20 million symbols
 RuleFigures rule_figures(const Document& document, const Style& style, double nodes, const Monitor& monitor);
 
 }  // namespace sikku
