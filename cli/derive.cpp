@@ -106,33 +106,23 @@ struct WordLimits {
     const char* what;  ///< subject of the message
 };
 
-/// Forecasts the symbols of all words together; absent if a word would have to be derived.
-std::optional<double> symbols_of_words(const Grammar& grammar, std::int64_t first, std::int64_t last) {
+/// Refuses words that are too long before they are derived, unless a word would have to be derived for that.
+/// @throws BudgetError
+void require_short_words(const Grammar& grammar, std::int64_t first, std::int64_t last, const WordLimits& limits) {
     constexpr std::int64_t most_forecast = 2000;  // the cost grows with the square
-    if (last > most_forecast || grammar.has_schedule()) return std::nullopt;
+    if (last > most_forecast || grammar.has_schedule()) return;
     double all = 0;
     for (std::int64_t steps = first; steps <= last; ++steps) {
         const auto shorter = grammar.with_steps(steps);
         const auto known = shorter ? estimate(*shorter, false) : std::nullopt;
-        if (!known) return std::nullopt;
+        if (!known) return;
         all += std::pow(10.0, known->log10_length);
-        if (!(all < 1e300)) break;
+        if (all < static_cast<double>(limits.symbols) + 0.5) continue;
+        throw BudgetError(fmt::format(
+            "the words of steps {} to {} have too many symbols: {} has at most {} in all words together{}", first,
+            last, limits.what, limits.symbols,
+            steps == first ? "" : fmt::format("; --generations {}:{} fits", first, steps - 1)));
     }
-    return all;
-}
-
-/// Refuses words that are too long, before deriving them. @throws BudgetError
-void require_short_words(const Grammar& grammar, std::int64_t first, std::int64_t last, const WordLimits& limits) {
-    const auto known = symbols_of_words(grammar, first, last);
-    const auto most = static_cast<double>(limits.symbols);
-    if (!known || *known < most + 0.5) return;
-    std::int64_t fits = last;
-    while (--fits >= first && !(*symbols_of_words(grammar, first, fits) < most + 0.5)) {
-    }
-    throw BudgetError(fmt::format("the words of steps {} to {} have {} symbols in all; {} has at most {}{}", first,
-                                  last, *known < 1e15 ? fmt::format("{:.0f}", *known) : fmt::format("{:.3g}", *known),
-                                  limits.what, limits.symbols,
-                                  fits < first ? "" : fmt::format("; --generations {}:{} fits", first, fits)));
 }
 
 /// @throws UsageError, BudgetError, WordError
@@ -247,25 +237,28 @@ void add_derive(CLI::App& app, bool& quiet) {
     auto options = std::make_shared<DeriveCommand>();
     add_pattern_options(*command, *options);
     command->add_flag("--interpreted", options->is_interpreted, "apply the productions under `interpret:`");
-    command
-        ->add_option(
-            "--generations", options->generations,
-            "print the words after A to B steps of a derivation of B steps, one below the other, each symbol above "
-            "those that replace it; not for maps")
-        ->type_name("A:B");
+    auto* const generations =
+        command
+            ->add_option(
+                "--generations", options->generations,
+                "print the words after A to B steps of a derivation of B steps, one below the other, each symbol "
+                "above those that replace it; not for maps")
+            ->type_name("A:B");
     command->add_flag("--tree", options->is_tree,
                       "draw the derivation tree of these words, of all steps by default, as SVG; not for maps");
-    command
-        ->add_option(
-            "-o,--output", options->output,
-            "file for the words of --generations (.txt, .md, .tex or .svg) or the tree (.svg); its extension "
-            "selects the format (standard output)")
-        ->type_name("FILE");
-    command
-        ->add_option("--format", options->format,
-                     "format of the words of --generations: text, markdown, latex or svg, whatever the extension "
-                     "(text)")
-        ->type_name("FORMAT");
+    auto* const output =
+        command
+            ->add_option(
+                "-o,--output", options->output,
+                "file for the words of --generations (.txt, .md, .tex or .svg) or the tree (.svg); its extension "
+                "selects the format (standard output)")
+            ->type_name("FILE");
+    auto* const format =
+        command
+            ->add_option("--format", options->format,
+                         "format of the words of --generations: text, markdown, latex or svg, whatever the extension "
+                         "(text)")
+            ->type_name("FORMAT");
     command
         ->add_option("--wrap", options->wrap,
                      "break the words of --generations into blocks of lines with at most this many columns, 20 to "
@@ -286,7 +279,13 @@ void add_derive(CLI::App& app, bool& quiet) {
         "  sikku derive fibonacci-words --generations 0:5\n"
         "  sikku derive anabaena --generations 0:4 -o words.svg\n"
         "  sikku derive fibonacci-words --generations 0:5 --tree -o tree.svg");
-    command->callback([options, &quiet] {
+    command->callback([=, &quiet] {
+        const auto refuse_empty = [](const CLI::Option* option, const std::string& value, const char* message) {
+            if (option->count() > 0 && value.empty()) throw UsageError(message);
+        };
+        refuse_empty(generations, options->generations, "--generations: expected two numbers of steps such as 0:5");
+        refuse_empty(output, options->output, "-o: expected the name of a file");
+        refuse_empty(format, options->format, "--format: expected text, markdown, latex or svg");
         const bool has_words = options->is_tree || !options->generations.empty();
         has_words ? derive_words(*options, quiet) : derive_word(*options, quiet);
     });

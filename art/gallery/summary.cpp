@@ -175,7 +175,8 @@ std::vector<std::string> sheet_files(const SheetRequest& request) {
 namespace {
 
 /// The prints among the jobs.
-std::vector<SheetCell> cells_of(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request) {
+std::vector<SheetCell> cells_of(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request,
+                                const Monitor& monitor = {}) {
     std::vector<SheetCell> cells;
     std::map<const GalleryPattern*, std::set<std::int64_t>> lengths;
     // Settings that distinguish the prints of a pattern.
@@ -202,7 +203,7 @@ std::vector<SheetCell> cells_of(const std::vector<const GalleryJob*>& jobs, cons
     const GalleryPattern* row = nullptr;
     for (auto& [job, loaded] : prints) {
         const DrawSettings settings = read_draw_settings(job->values());
-        SheetCell cell = print_cell(loaded, settings, job->folder);
+        SheetCell cell = print_cell(loaded, settings, job->folder, nullptr, monitor);
         cell.dot_spacing.reset();                // the drawing is scaled to fill its cell
         if (cell.colouring) cell.colouring = 0;  // regions of any area
         if (cell.title.empty()) cell.title = job->pattern->name;
@@ -256,7 +257,7 @@ bool is_white(const std::vector<const GalleryJob*>& jobs, const std::vector<Shee
 
 std::string draw_gallery_sheet(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request,
                                const std::filesystem::path& file, Destination& destination, const Monitor& monitor) {
-    const std::vector<SheetCell> cells = cells_of(jobs, request);
+    const std::vector<SheetCell> cells = cells_of(jobs, request, monitor);
     if (cells.empty()) throw GalleryError("this gallery has no prints for a sheet");
     SheetOptions options = options_of(request, file);
     if (is_white(jobs, cells)) options.ground = white_paper;

@@ -1,6 +1,7 @@
 #include "art/product/highlight.h"
 
 #include "engine/derivation/lineage.h"
+#include "engine/derivation/neighbourhood.h"
 
 #include <fmt/format.h>
 
@@ -31,10 +32,14 @@ struct TracedWord {
 class HighlightTracer {
 public:
     HighlightTracer(const Grammar& grammar, const Highlight& highlight, double budget, const Monitor& monitor)
-        : grammar_(grammar), highlight_(highlight), monitor_(monitor) {
-        options_.limit_whole_words(budget);
-        options_.watch = [this](std::uint64_t symbols) { monitor_.advance(symbols); };
+        : grammar_(grammar),
+          highlight_(highlight),
+          budget_(budget),
+          monitor_(monitor),
+          options_(DerivationOptions::within(budget, [this](std::uint64_t symbols) { monitor_.advance(symbols); })),
+          work_(options_) {
         traced_.word = grammar.axiom_modules();
+        count(0);
     }
 
     TracedWord trace() {
@@ -50,7 +55,7 @@ private:
     void step(const Table& table, std::int64_t number) {
         monitor_.check();
         StepOrigins origins;
-        ModuleWord next = rewrite(grammar_, table, traced_.word, number, options_, origins);
+        ModuleWord next = rewrite(grammar_, table, traced_.word, number, options_, work_, origins);
         std::vector<std::uint32_t> before;
         if (number == highlight_.step && number <= grammar_.steps()) {
             before = number_replaced(table, origins.applied);
@@ -62,6 +67,15 @@ private:
             for (const std::uint32_t parent : origins.parents) traced_.parts.push_back(before[parent]);
         }
         traced_.word = std::move(next);
+        count(number);
+    }
+
+    void count(std::int64_t number) {
+        visited_ += static_cast<double>(traced_.word.symbols.size()) + 1;
+        if (visited_ > budget_) {
+            throw BudgetError(
+                fmt::format("those up to step {} have more than {:.0f} symbols in all", number, budget_));
+        }
     }
 
     /// Numbers the symbols that productions replace. Symbols that one production replaces together count as one.
@@ -94,8 +108,11 @@ private:
 
     const Grammar& grammar_;
     Highlight highlight_;
+    double budget_;
+    double visited_ = 0;  ///< symbols of all words
     const Monitor& monitor_;
     DerivationOptions options_;
+    MatchingWork work_;
     TracedWord traced_;
 };
 

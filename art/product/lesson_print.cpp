@@ -53,16 +53,16 @@ public:
     Cost forecast() const override { return sheet_cost(cells(), row_options(print(), drawing())); }
 
 private:
-    std::vector<SheetCell> cells() const {
+    std::vector<SheetCell> cells(const Monitor& monitor = {}) const {
         const auto [first, last] = *settings().time.generations;
-        SheetCell cell = print_cell(document(), settings(), folder());
+        SheetCell cell = print_cell(document(), settings(), folder(), nullptr, monitor);
         cell.may_be_empty = true;
         return generations(cell, first, last);
     }
 
     void make_product(Destination& destination, const std::filesystem::path& name, const DrawOptions& options,
                       Made& made) override {
-        make_row(cells(), row_options(print(), drawing()), options, destination, name, made);
+        make_row(cells(options.monitor), row_options(print(), drawing()), options, destination, name, made);
     }
 };
 
@@ -84,7 +84,8 @@ private:
         const LessonLength length = lesson_length(grammar(), print(), steps);
         std::vector<SheetCell> list;
         for (std::size_t step = length.first; step < length.count; ++step) {
-            SheetCell& cell = list.emplace_back(print_cell(document(), settings(), folder(), drawing().font));
+            SheetCell& cell =
+                list.emplace_back(print_cell(document(), settings(), folder(), drawing().font, options.monitor));
             cell.lesson_step = step;
             cell.most_steps = steps.most_steps;
             cell.lesson_memo = steps.lesson_memo;

@@ -8,7 +8,7 @@
 namespace sikku {
 
 SheetCell print_cell(const Document& document, const DrawSettings& settings, const std::filesystem::path& folder,
-                     std::shared_ptr<const Font> font) {
+                     std::shared_ptr<const Font> font, const Monitor& monitor) {
     SheetCell cell;
     static_cast<DrawingOptions&>(cell) = drawing_options(settings, document);
     cell.budget = settings.work.budget;
@@ -16,7 +16,7 @@ SheetCell print_cell(const Document& document, const DrawSettings& settings, con
     cell.style = read_print_style(document, settings);
     if (settings.look.highlight) {
         LitDrawing lit =
-            lit_drawing(document.grammar(), cell.style, *settings.look.highlight, settings.work.budget, {});
+            lit_drawing(document.grammar(), cell.style, *settings.look.highlight, settings.work.budget, monitor);
         cell.grammar = std::make_shared<const Grammar>(std::move(lit.grammar));
         cell.style = std::move(lit.style);
     }

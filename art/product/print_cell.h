@@ -3,6 +3,7 @@
 
 #include "art/product/draw_settings.h"
 #include "art/sheet/sheet.h"
+#include "engine/base/monitor.h"
 #include "engine/language/document.h"
 
 #include <filesystem>
@@ -15,7 +16,8 @@ namespace sikku {
 /// cell. @throws SettingError, PatternError
 /// @param folder  folder of files that the settings name
 /// @param font    the font of the settings, which cells may share; null: it is opened
+/// @param monitor  of the derivation that lights a step
 SheetCell print_cell(const Document& document, const DrawSettings& settings, const std::filesystem::path& folder = {},
-                     std::shared_ptr<const Font> font = nullptr);
+                     std::shared_ptr<const Font> font = nullptr, const Monitor& monitor = {});
 
 }  // namespace sikku

@@ -4,6 +4,7 @@
 #include "art/writer/make_drawing.h"
 #include "engine/base/diagnostic.h"
 #include "engine/derivation/lineage.h"
+#include "engine/derivation/neighbourhood.h"
 #include "engine/geometry/turtle.h"
 #include "engine/language/undrawn.h"
 
@@ -101,61 +102,139 @@ ModuleWord module_part(const Grammar& grammar, const ModuleWord& word, std::size
 }
 
 /// Finds the first application of each production with parameters, in words of up to 20,000 symbols.
-void find_applications(const Grammar& grammar, std::vector<ShownProduction>& list, double nodes,
-                       const Monitor& monitor) {
-    constexpr std::uint64_t longest = 20'000;
-    std::map<const Production*, ShownProduction*> missing;
-    for (ShownProduction& shown : list) {
-        const Production& production = *shown.production;
-        if (has_modules(grammar, production.predecessor) || has_modules(grammar, production.successor)) {
-            missing[&production] = &shown;
-        } else {
-            shown.predecessor = ModuleWord{production.predecessor, {}, {}};
-            shown.successor = ModuleWord{production.successor, {}, {}};
+class ApplicationFinder {
+public:
+    ApplicationFinder(const Grammar& grammar, std::vector<ShownProduction>& list, double nodes,
+                      const Monitor& monitor)
+        : grammar_(grammar),
+          most_(std::min(nodes, most_symbols)),
+          monitor_(monitor),
+          options_(DerivationOptions::within(nodes, [this](std::uint64_t) { monitor_.check(); })),
+          work_(options_) {
+        options_.longest_word = std::min(options_.longest_word, longest);
+        for (ShownProduction& shown : list) {
+            const Production& production = *shown.production;
+            if (has_modules(grammar, production.predecessor) || has_modules(grammar, production.successor)) {
+                missing_[&production] = &shown;
+            } else {
+                shown.predecessor = ModuleWord{production.predecessor, {}, {}};
+                shown.successor = ModuleWord{production.successor, {}, {}};
+            }
+        }
+        left_ = missing_.size();
+        for (const Table& table : grammar.tables()) {
+            std::vector<ShownProduction*>& row = shown_.emplace_back();
+            for (const Production& production : table.productions()) row.push_back(shown_as(production));
         }
     }
-    DerivationOptions options;
-    options.limit_whole_words(nodes);
-    options.longest_word = std::min(options.longest_word, longest);
-    ModuleWord word = grammar.axiom_modules();
-    std::int64_t number = 0;
-    for (const ScheduleRun& run : grammar.schedule()) {
-        const Table& table = grammar.tables()[run.table];
-        for (std::int64_t i = 0; i < run.steps && !missing.empty(); ++i) {
-            monitor.check();
-            StepOrigins origins;
-            ModuleWord next;
-            try {
-                next = rewrite(grammar, table, word, ++number, options, origins);
-            } catch (const BudgetError&) {
-                return;
-            }
-            for (std::size_t at = 0; at < origins.applied.size(); ++at) {
-                if (origins.applied[at] >= table.productions().size()) continue;
-                const Production& production = table.productions()[origins.applied[at]];
-                const std::size_t end = at + production.predecessor.size();
-                // Productions before the first table have a copy in each table.
-                const auto found = std::find_if(missing.begin(), missing.end(), [&](const auto& one) {
-                    return one.first == &production ||
-                           (one.first->text == production.text && grammar.tables().size() > 1 &&
-                            one.first->predecessor == production.predecessor &&
-                            one.first->successor == production.successor);
-                });
-                if (found != missing.end()) {
-                    const auto first = std::lower_bound(origins.parents.begin(), origins.parents.end(), at);
-                    const auto last = std::upper_bound(origins.parents.begin(), origins.parents.end(), at);
-                    found->second->predecessor = module_part(grammar, word, at, end);
-                    found->second->successor =
-                        module_part(grammar, next, static_cast<std::size_t>(first - origins.parents.begin()),
-                                    static_cast<std::size_t>(last - origins.parents.begin()));
-                    missing.erase(found);
+
+    /// False if the derivation is longer than its limits, and productions are missing.
+    bool find() {
+        ModuleWord word = grammar_.axiom_modules();
+        double visited = 0;
+        std::int64_t number = 0;
+        for (const ScheduleRun& run : grammar_.schedule()) {
+            for (std::int64_t i = 0; i < run.steps && left_ > 0; ++i) {
+                monitor_.check();
+                visited += static_cast<double>(word.symbols.size()) + 1;
+                if (visited > most_) return false;
+                StepOrigins origins;
+                ModuleWord next;
+                try {
+                    next = rewrite(grammar_, grammar_.tables()[run.table], word, ++number, options_, work_, origins);
+                } catch (const BudgetError&) {
+                    return false;
                 }
-                at = end - 1;
+                note(run.table, word, next, origins);
+                word = std::move(next);
             }
-            word = std::move(next);
+        }
+        return true;
+    }
+
+private:
+    static constexpr double most_symbols = 20e6;  // of all words together
+    static constexpr std::uint64_t longest = 20'000;
+
+    /// Productions before the first table have a copy in each table.
+    ShownProduction* shown_as(const Production& production) const {
+        const auto found = missing_.find(&production);
+        if (found != missing_.end()) return found->second;
+        if (grammar_.tables().size() == 1) return nullptr;
+        const auto copy = std::find_if(missing_.begin(), missing_.end(), [&](const auto& one) {
+            return one.first->text == production.text && one.first->predecessor == production.predecessor &&
+                   one.first->successor == production.successor;
+        });
+        return copy == missing_.end() ? nullptr : copy->second;
+    }
+
+    void note(std::size_t number, const ModuleWord& word, const ModuleWord& next, const StepOrigins& origins) {
+        const Table& table = grammar_.tables()[number];
+        for (std::size_t at = 0; at < origins.applied.size(); ++at) {
+            if (origins.applied[at] >= table.productions().size()) continue;
+            const std::size_t end = at + table.productions()[origins.applied[at]].predecessor.size();
+            ShownProduction* const shown = shown_[number][origins.applied[at]];
+            if (shown && !shown->predecessor) {
+                const auto first = std::lower_bound(origins.parents.begin(), origins.parents.end(), at);
+                const auto last = std::upper_bound(origins.parents.begin(), origins.parents.end(), at);
+                shown->predecessor = module_part(grammar_, word, at, end);
+                shown->successor =
+                    module_part(grammar_, next, static_cast<std::size_t>(first - origins.parents.begin()),
+                                static_cast<std::size_t>(last - origins.parents.begin()));
+                --left_;
+            }
+            at = end - 1;
         }
     }
-}
+
+    const Grammar& grammar_;
+    double most_;
+    const Monitor& monitor_;
+    DerivationOptions options_;
+    MatchingWork work_;
+    std::map<const Production*, ShownProduction*> missing_;
+    std::vector<std::vector<ShownProduction*>> shown_;  ///< by table and production; null: known before
+    std::size_t left_ = 0;                              ///< productions without an application
+};
+
+/// Why productions are not drawn: a few sentences, and the number of the others.
+class Remarks {
+public:
+    void add(const ShownProduction& shown, const std::string& what, bool is_empty) {
+        constexpr std::size_t most_sentences = 3;
+        if (sentences_.size() < most_sentences) {
+            sentences_.push_back(shortened(fmt::format("{} → {}", shown.before, shown.after)) + what);
+        } else {
+            ++further_;
+            are_empty_ = are_empty_ && is_empty;
+        }
+    }
+    std::vector<std::string> sentences() && {
+        if (further_ > 0) {
+            const bool is_one = further_ == 1;
+            sentences_.push_back(fmt::format("… and {} further {} {}", further_,
+                                             is_one ? "production" : "productions",
+                                             are_empty_ ? (is_one ? "draws nothing" : "draw nothing")
+                                                        : (is_one ? "is not drawn" : "are not drawn")));
+        }
+        return std::move(sentences_);
+    }
+
+private:
+    static std::string shortened(const std::string& text) {
+        constexpr std::size_t most = 48;  // characters
+        std::size_t characters = 0;
+        for (std::size_t i = 0; i < text.size(); ++i) {
+            if ((static_cast<unsigned char>(text[i]) & 0xC0U) == 0x80U) continue;
+            if (characters++ == most) return text.substr(0, i) + "…";
+        }
+        return text;
+    }
+
+    std::vector<std::string> sentences_;
+    std::size_t further_ = 0;
+    bool are_empty_ = true;  ///< all further ones draw nothing
+};
 
 /// Returns the letters that draw nothing and that productions replace.
 std::vector<std::string> node_letters(const Grammar& grammar) {
@@ -266,28 +345,31 @@ public:
     RuleFigures make() {
         RuleFigures result;
         std::vector<ShownProduction> list = productions_of(document_);
-        find_applications(grammar_, list, nodes_, monitor_);
+        const bool is_whole = ApplicationFinder(grammar_, list, nodes_, monitor_).find();
+        const std::string unused =
+            is_whole ? fmt::format(" is not drawn: no step up to n = {} applies it", grammar_.steps())
+                     : " is not drawn: an application was not found within the budget";
+        Remarks remarks;
         std::size_t left_out = 0;
         for (const ShownProduction& shown : list) {
-            const std::string text = fmt::format("{} → {}", shown.before, shown.after);
             if (!shown.predecessor) {
-                result.sentences.push_back(
-                    fmt::format("{} is not drawn: no step up to n = {} applies it", text, grammar_.steps()));
+                remarks.add(shown, unused, false);
                 continue;
             }
             try {
                 auto figure = figure_of(shown);
                 if (!figure) {
-                    result.sentences.push_back(text + " draws nothing");
+                    remarks.add(shown, " draws nothing", true);
                 } else if (result.figures.size() == most_figures) {
                     ++left_out;
                 } else {
                     result.figures.push_back(std::move(*figure));
                 }
             } catch (const WordError& error) {
-                result.sentences.push_back(fmt::format("{} is not drawn alone: {}", text, error.what()));
+                remarks.add(shown, fmt::format(" is not drawn alone: {}", error.what()), false);
             }
         }
+        result.sentences = std::move(remarks).sentences();
         if (left_out > 0) {
             result.sentences.push_back(
                 fmt::format("productions after the first {} are left out: {}", most_figures, left_out));

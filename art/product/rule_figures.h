@@ -19,7 +19,7 @@ struct RuleFigure {
 
 struct RuleFigures {
     std::vector<RuleFigure> figures;
-    std::vector<std::string> sentences;  ///< about the productions that are not drawn
+    std::vector<std::string> sentences;  ///< about productions that are not drawn: three, and numbers of others
     Style style;                         ///< of the drawings, plain, with colours for letters and tiles
 };
 
@@ -27,7 +27,7 @@ struct RuleFigures {
 /// are applied, but not drawn. Productions with parameters use the values of their first application. A letter that
 /// draws nothing is a dot with its name; as a predecessor it is a tile of the size of its successor, with dots where
 /// the successor begins and ends.
-/// @param nodes  budget of the derivation that finds the values of parameters
+/// @param nodes  budget of the derivation that finds the values of parameters; it visits at most 20 million symbols
 RuleFigures rule_figures(const Document& document, const Style& style, double nodes, const Monitor& monitor);
 
 }  // namespace sikku

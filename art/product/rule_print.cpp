@@ -56,7 +56,7 @@ public:
         if (found.figures.empty()) {
             std::string why;
             for (const std::string& sentence : sentences_) why += "; " + sentence;
-            refuse_option("rule", "", "no production of the pattern draws anything" + why.substr(0, 400));
+            refuse_option("rule", "", "no production of the pattern draws anything" + why);
         }
         make_cells(found);
     }

@@ -408,8 +408,15 @@ void SheetMaker::write_footer() {
     if (options_.footer.empty()) return;
     constexpr double most_letters = 3.0, share = 0.3;
     const Page& page = options_.page;
-    const double height = std::min(most_letters, share * page.margin);
-    const double left = (page.width - letters_.width(options_.footer, height)) / 2;
+    double height = std::min(most_letters, share * page.margin);
+    double width = letters_.width(options_.footer, height);
+    // A long line has smaller letters.
+    const double room = page.width - 2 * page.margin;
+    if (width > room && room > 0) {
+        height *= room / width;
+        width = letters_.width(options_.footer, height);
+    }
+    const double left = (page.width - width) / 2;
     plan_.texts.push_back({options_.footer,
                            {left, page.height - 0.5 * page.margin + height / 2},
                            height,

@@ -1,6 +1,7 @@
 #include "engine/derivation/lineage.h"
 
 #include "engine/derivation/forecast.h"
+#include "engine/derivation/neighbourhood.h"
 
 #include <fmt/format.h>
 
@@ -14,10 +15,14 @@ namespace {
 class LineageMaker {
 public:
     LineageMaker(const Grammar& grammar, std::int64_t first, const WordLineageLimits& limits, const Monitor& monitor)
-        : grammar_(grammar), first_(first), limits_(limits), monitor_(monitor) {
-        options_.limit_whole_words(limits.nodes);
-        options_.longest_word = std::min<std::uint64_t>(options_.longest_word, limits.symbols);
-        options_.watch = [this](std::uint64_t symbols) { monitor_.advance(symbols); };
+        : grammar_(grammar),
+          first_(first),
+          limits_(limits),
+          monitor_(monitor),
+          options_(
+              DerivationOptions::within(limits.nodes, [this](std::uint64_t symbols) { monitor_.advance(symbols); })),
+          work_(options_),
+          longest_(options_.longest_word) {
         words_.push_back({0, false, grammar.axiom_modules(), {}, {}, nullptr});
         count();
     }
@@ -28,8 +33,14 @@ public:
         LineageWord after;
         after.steps = before.steps + (is_interpretation ? 0 : 1);
         after.is_interpreted = is_interpretation;
+        // Words that are not shown are limited only by the budget, also the one that becomes the first that is.
+        options_.longest_word = longest_;
+        if (after.steps >= first_) {
+            options_.longest_word =
+                std::min(longest_, std::max<std::uint64_t>(limits_.symbols, before.word.symbols.size()));
+        }
         try {
-            after.word = rewrite(grammar_, table, before.word, before.steps + 1, options_, origins);
+            after.word = rewrite(grammar_, table, before.word, before.steps + 1, options_, work_, origins);
         } catch (const BudgetError& error) {
             throw BudgetError(fmt::format("step {}: {}", before.steps + 1, error.what()));
         }
@@ -68,6 +79,8 @@ private:
     WordLineageLimits limits_;
     const Monitor& monitor_;
     DerivationOptions options_;
+    MatchingWork work_;
+    std::uint64_t longest_;  ///< symbols of a word that is not shown
     std::vector<LineageWord> words_;
     std::uint64_t symbols_ = 0;
     double visited_ = 0;

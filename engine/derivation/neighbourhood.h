@@ -13,6 +13,8 @@
 
 namespace sikku {
 
+struct StepOrigins;
+
 /// Thrown if matching compares more symbols than the options allow.
 class MatchingError : public BudgetError {
     using BudgetError::BudgetError;
@@ -222,5 +224,8 @@ inline std::uint64_t longest_word(const DerivationOptions& options) {
 /// Rewrites a word as the public function does, and counts the symbols compared in `work`.
 ModuleWord rewrite(const Grammar& grammar, const Table& table, const ModuleWord& given, std::int64_t step,
                    const DerivationOptions& options, MatchingWork& work);
+/// @param origins  receives where the symbols of the result come from
+ModuleWord rewrite(const Grammar& grammar, const Table& table, const ModuleWord& word, std::int64_t step,
+                   const DerivationOptions& options, MatchingWork& work, StepOrigins& origins);
 
 }  // namespace sikku

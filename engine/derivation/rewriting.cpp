@@ -428,9 +428,14 @@ ModuleWord rewrite(const Grammar& grammar, const Table& table, const ModuleWord&
 
 ModuleWord rewrite(const Grammar& grammar, const Table& table, const ModuleWord& word, std::int64_t step,
                    const DerivationOptions& options, StepOrigins& origins) {
+    MatchingWork work(options);
+    return rewrite(grammar, table, word, step, options, work, origins);
+}
+
+ModuleWord rewrite(const Grammar& grammar, const Table& table, const ModuleWord& word, std::int64_t step,
+                   const DerivationOptions& options, MatchingWork& work, StepOrigins& origins) {
     origins.parents.clear();
     origins.applied.clear();
-    MatchingWork work(options);
     return rewrite_whole(grammar, table, word, step, options, work, {&origins.parents, &origins.applied});
 }
 

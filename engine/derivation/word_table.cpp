@@ -209,6 +209,9 @@ std::string latex_escaped(std::string_view text) {
             case '-':
                 result += "{-}";
                 break;
+            case '`':
+                result += "{`}";  // ?` and !` would be ligatures
+                break;
             case '{':
             case '}':
             case '$':
@@ -299,7 +302,7 @@ std::string words_as_markdown(const WordTable& table, std::size_t wrap, const st
     const std::string fence(longest + 1, '`');
     std::string head;
     for (const char byte : title) {
-        if (std::string_view("\\`*_{}[]<>#|~").find(byte) != std::string_view::npos) head += '\\';
+        if (std::string_view("\\`*_{}[]<>#|~&").find(byte) != std::string_view::npos) head += '\\';
         head += byte;
     }
     return fmt::format("{}{}text\n{}{}\n", head.empty() ? "" : "**" + head + "**\n\n", fence, text, fence);

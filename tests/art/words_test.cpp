@@ -8,6 +8,7 @@
 #include "tests/checks.h"
 #include "tests/print_tools.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 #include <pugixml.hpp>
@@ -190,6 +191,24 @@ TEST(RuleFigures, UseTheValuesOfTheFirstApplication) {
     EXPECT_EQ(none.sentences.front(), "F(s) : s > 5 → F(s)F(s) is not drawn: no step up to n = 2 applies it");
 }
 
+TEST(RuleFigures, SearchWithinTheBudget) {
+    const Document unused = parse(
+        "unused", "axiom: F(1)\nderivation length: 1000000\nF(s) : s > 5 --> F(s)F(s)\nF(s) : s <= 5 --> F(s)\n");
+    const RuleFigures found = figures_of(unused);
+    EXPECT_EQ(found.figures.size(), 1U);
+    ASSERT_EQ(found.sentences.size(), 1U);
+    EXPECT_TRUE(has(found.sentences.front(), "not found within the budget")) << found.sentences.front();
+}
+
+TEST(RuleFigures, SayLittleAboutManyProductions) {
+    std::string text = "axiom: F\nderivation length: 1\nF --> FF\n";
+    for (char letter = 'H'; letter <= 'Z'; ++letter) text += fmt::format("{0} --> {0}{0}{0}\n", letter);
+    const RuleFigures found = figures_of(parse("many", text));
+    ASSERT_EQ(found.sentences.size(), 4U);
+    EXPECT_EQ(found.sentences.front(), "H → HHH draws nothing");
+    EXPECT_EQ(found.sentences.back(), "… and 16 further productions draw nothing");
+}
+
 TEST(RuleFigures, ReportsBracketsThatDoNotClose) {
     const RuleFigures found = figures_of(parse("open", "axiom: A]\nderivation length: 1\nA --> [F\n"));
     EXPECT_TRUE(found.figures.empty());
@@ -264,6 +283,15 @@ TEST(Highlight, ColoursTiles) {
     std::size_t all = 0;
     for (const auto& [colour, count] : found) all += count;
     EXPECT_EQ(all, 64U);
+}
+
+TEST(Highlight, KeepsTheBudgetOverAllSteps) {
+    const Document line = parse("line", "axiom: F\nderivation length: 1000000\nF --> F\n");
+    Diagnostics diagnostics;
+    const std::string error = error_of<BudgetError>([&] {
+        lit_drawing(line.grammar(), read_style(line.pattern(), 96, diagnostics), {1, std::nullopt}, 1e5, {});
+    });
+    EXPECT_TRUE(has(error, "those up to step 50000 have more than 100000 symbols in all")) << error;
 }
 
 TEST(Highlight, RefusesStepsAndSymbolsThatDoNotExist) {

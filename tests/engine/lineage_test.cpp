@@ -136,6 +136,29 @@ TEST(Lineage, StopsAtItsLimits) {
     EXPECT_TRUE(has(error, "step 5")) << error;
 }
 
+/// Of A, BBBB and nothing, the second word is longer than the limit, and is not among the first two.
+TEST(Lineage, LimitsOnlyTheWordsThatItGives) {
+    const Grammar grammar = parse("pulse", "axiom: A\nderivation length: 2\nA --> BBBB\nB --> *\n").grammar();
+    WordLineageLimits limits;
+    limits.symbols = 3;
+    EXPECT_TRUE(word_lineage(grammar, 2, 2, false, limits).front().word.symbols.empty());
+    EXPECT_TRUE(
+        has(error_of<BudgetError>([&] { word_lineage(grammar, 1, 2, false, limits); }), "more than 3 symbols"));
+}
+
+/// One step compares fewer symbols than the budget allows, forty more.
+TEST(Lineage, ComparedSymbolsAddUpOverTheSteps) {
+    const std::string many(100, 'A');
+    const Grammar grammar =
+        parse("compared", "axiom: " + many + "\nderivation length: 40\n" + many.substr(50) + " < A --> A\n")
+            .grammar();
+    WordLineageLimits limits;
+    limits.nodes = 1e5;
+    EXPECT_EQ(word_lineage(grammar, 0, 1, false, limits).size(), 2U);
+    EXPECT_TRUE(
+        has(error_of<BudgetError>([&] { word_lineage(grammar, 0, 40, false, limits); }), "matching contexts"));
+}
+
 TEST(WordTable, PlacesSymbolsAboveThoseThatReplaceThem) {
     for (const auto& [name, steps] : systems) {
         SCOPED_TRACE(name);
@@ -172,11 +195,14 @@ TEST(WordTable, WritesTextMarkdownAndLatex) {
               "4  ab a ab\n");
     EXPECT_EQ(words_as_markdown(table, 0, "A *title*"),
               "**A \\*title\\***\n\n```text\n" + words_as_text(table, 0) + "```\n");
+    EXPECT_TRUE(words_as_markdown(table, 0, "&lt;").starts_with("**\\&lt;**"));
     EXPECT_TRUE(
         has(words_as_latex(table, ""),
             "2 & \\multicolumn{3}{c}{\\replaced{a}} & \\multicolumn{2}{c}{\\replaced{b}} \\\\\n"
             "3 & \\multicolumn{2}{c}{\\replaced{a}} & \\replaced{b} & \\multicolumn{2}{c}{\\replaced{a}} \\\\\n"
             "4 & a & b & a & a & b \\\\\n"));
+    const Grammar ticks = parse("ticks", "axiom: A`B\n").grammar();
+    EXPECT_TRUE(has(words_as_latex(lay_out_words(ticks, lineage(ticks, 0)), ""), "& A & {`} & B"));
 }
 
 /// Blocks of lines contain the same symbols in the same order.

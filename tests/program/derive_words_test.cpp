@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -54,6 +55,9 @@ TEST(DeriveWords, RefusesWithAReason) {
         {{"--generations", "5:2"}, 2, "the lower number of steps first"},
         {{"--generations", "-1:2"}, 2, "expected two numbers of steps"},
         {{"--generations", "0:"}, 2, "expected two numbers of steps"},
+        {{"--generations", ""}, 2, "expected two numbers of steps"},
+        {{"--generations", "0:2", "-o", ""}, 2, "-o: expected the name of a file"},
+        {{"--generations", "0:2", "--format", ""}, 2, "--format: expected text"},
         {{"--generations", "0:x"}, 2, "expected two numbers of steps"},
         {{"--generations", "0:99999999999999999999999"}, 2, "expected up to 1000000 steps"},
         {{"--generations", "0:2000"}, 2, "expected up to 1000 words"},
@@ -79,6 +83,16 @@ TEST(DeriveWords, RefusesWithAReason) {
     const Outcome map = run({"derive", "moss-leaf", "--generations", "0:2"});
     EXPECT_EQ(map.status, 2);
     EXPECT_TRUE(has(map.errors, "a map has no words"));
+}
+
+/// The words of steps 0 to n have (n + 1)(n + 2)/2 symbols.
+TEST(DeriveWords, FindsTheStepsThatFit) {
+    const ScratchFolder folder;
+    std::ofstream(folder.path() / "line.lsys") << "axiom: A\nA --> AB\n";
+    const Outcome outcome = run({"derive", "line.lsys", "--generations", "0:999"}, {.folder = folder.path()});
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_TRUE(has(outcome.errors, "; --generations 0:198 fits")) << outcome.errors;
+    EXPECT_LT(outcome.seconds, 5);
 }
 
 }  // namespace sikku::derive_words_test
