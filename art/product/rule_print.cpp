@@ -88,11 +88,13 @@ private:
                           fmt::format("the page has no room for {}; use a larger size",
                                       counted(found.figures.size(), "production")));
         }
-        const auto rows = static_cast<double>((found.figures.size() + places.columns - 1) / places.columns);
+        const auto row_count = (found.figures.size() + places.columns - 1) / places.columns;
+        const auto rows = static_cast<double>(row_count);
         room.top += std::max(0.0, (room.height - rows * places.down) / 2);
         for (std::size_t i = 0; i < found.figures.size(); ++i) {
             const double left = room.left + static_cast<double>(i % places.columns) * places.across;
-            const double top = room.top + static_cast<double>(i / places.columns) * places.down;
+            const auto row = i / places.columns;
+            const double top = room.top + static_cast<double>(row) * places.down;
             add_production(found, i, places, left, top);
         }
     }
