@@ -60,8 +60,8 @@ const notices_as_module = made("notices", /^notices$/, () => ({
     loader: "json",
 }));
 
-// What the libraries say about patterns, arrangements and options. The page would need a second to ask for it. The
-// libraries contain the texts of patterns.
+// Facts about patterns, arrangements and options, which would take the page a second to request from the libraries. The
+// texts of the patterns are in the libraries.
 const facts_as_module = made("facts", /^library-facts$/, async () => {
     const ask = await loadBridge(bridge);
     const answer = (what) => JSON.parse(ask(JSON.stringify({ do: what })).json);

@@ -92,7 +92,7 @@ void Composition::add_colours() {
 /// colours close to the ground.
 void Composition::add_stroke_colours() {
     constexpr double least = 0.12;  // in OKLab
-    const Colour ground = style_.ground && style_.ground->alpha > 0 ? *style_.ground : Colour{255, 255, 255, 255};
+    const Colour ground = ground_or_white(style_.ground);
     const auto is_seen = [&](Colour colour) { return colour_distance(colour, ground) >= least; };
     const bool is_dark = lightness(ground) < 0.6;
     if (!is_dark || style_.palette != default_palette()) {

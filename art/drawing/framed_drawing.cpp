@@ -2,6 +2,7 @@
 
 #include "art/print/border_ink.h"
 #include "art/print/ornaments.h"
+#include "art/style/white_paper.h"
 #include "engine/base/option.h"
 #include "engine/geometry/moved_path.h"
 
@@ -75,7 +76,7 @@ FramedDrawing::FramedDrawing(std::unique_ptr<Drawing> inner, std::optional<Borde
     ascent_ = letters_.ascent(title, 1);
     depth_ = std::max(letters_.depth(title, 1), letters_.depth(options_.edition, 1));
     constexpr double least = 0.25;  // in OKLab
-    const Colour ground = style_.ground && style_.ground->alpha > 0 ? *style_.ground : Colour{255, 255, 255, 255};
+    const Colour ground = ground_or_white(style_.ground);
     Colour ink = style_.line_colour({});
     if (ink.alpha < 255 || colour_distance(ink, ground) < least) {
         ink = lightness(ground) < 0.6 ? Colour{255, 255, 255, 255} : Colour{0, 0, 0, 255};

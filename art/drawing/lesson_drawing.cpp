@@ -2,6 +2,8 @@
 
 #include "art/print/ornaments.h"
 #include "art/raster/raster.h"
+#include "art/style/contrast.h"
+#include "art/style/white_paper.h"
 #include "engine/geometry/lettering.h"
 #include "engine/geometry/point_tree.h"
 
@@ -30,13 +32,6 @@ constexpr std::size_t most_numbers = 20;                   // numbered lines of 
 constexpr double caption_letters = 3.2;
 constexpr double stem = 0.13;  // share of the height of letters
 constexpr double halo = 0.6;   // share of the stem of letters, on either side
-
-Colour blended(Colour a, Colour b, double share) {
-    const auto channel = [&](std::uint8_t from, std::uint8_t to) {
-        return static_cast<std::uint8_t>(std::lround(from + share * (to - from)));
-    };
-    return {channel(a.red, b.red), channel(a.green, b.green), channel(a.blue, b.blue), a.alpha};
-}
 
 /// Adds a colour above all others. Equal colours share a layer, so a different one that looks the same is added.
 void add_layer(Style& style, Colour colour) {
@@ -144,15 +139,18 @@ LessonDrawing::LessonDrawing(std::unique_ptr<HandDrawing> drawing, const Drawing
     : DerivedDrawing(std::move(drawing), options, reading),
       memo_(options.lesson_memo ? options.lesson_memo : std::make_shared<LessonMemo>()) {
     step_ = options.lesson_step.value_or(0);
-    const Colour white{255, 255, 255, 255};
-    const Colour ground = style_.ground && style_.ground->alpha > 0 ? *style_.ground : white;
+    const Colour ground = ground_or_white(style_.ground);
     const int colours = static_cast<int>(drawn_.palette.size());
     pale_begin_ = colours;
     new_begin_ = 2 * colours;
     halo_ = 3 * colours;
     sign_ = halo_ + 1;
-    for (int i = 0; i < colours; ++i)
-        add_layer(style_, blended(drawn_.line_colour({.colour = i}), ground, pale_share));
+    for (int i = 0; i < colours; ++i) {
+        const Colour ink = drawn_.line_colour({.colour = i});
+        Colour pale = mixed(ink, ground, pale_share);
+        pale.alpha = ink.alpha;
+        add_layer(style_, pale);
+    }
     for (int i = 0; i < colours; ++i) add_layer(style_, drawn_.line_colour({.colour = i}));
     add_layer(style_, {ground.red, ground.green, ground.blue, 255});
     add_layer(style_, sign_colour(drawn_, ground));

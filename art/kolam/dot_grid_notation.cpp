@@ -2,6 +2,7 @@
 #include "art/kolam/dot_grid.h"
 #include "art/kolam/dot_grid_text.h"
 #include "art/kolam/dot_rectangle.h"
+#include "engine/base/characters.h"
 #include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
 
@@ -57,10 +58,6 @@ bool is_row_end(char byte) {
 }
 bool is_of_shape(char byte) {
     return is_drawn_dot(byte) || is_hole(byte) || is_row_end(byte) || byte == ' ' || byte == '\r';
-}
-/// True for bytes that continue a character of UTF-8.
-bool is_continuation(char byte) {
-    return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80;
 }
 
 /// True for texts with more places than other characters, or as many in several rows: words and numbers have fewer.

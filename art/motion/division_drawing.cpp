@@ -1,5 +1,6 @@
 #include "art/motion/division_drawing.h"
 
+#include "art/style/contrast.h"
 #include "engine/geometry/moved_path.h"
 
 #include <algorithm>
@@ -10,16 +11,9 @@
 namespace sikku {
 namespace {
 
-std::uint8_t mixed(std::uint8_t from, std::uint8_t to, double share) {
-    return static_cast<std::uint8_t>(std::lround(from + (to - from) * share));
-}
-Colour mixed(Colour from, Colour to, double share) {
-    return {mixed(from.red, to.red, share), mixed(from.green, to.green, share), mixed(from.blue, to.blue, share),
-            mixed(from.alpha, to.alpha, share)};
-}
 Colour faded(Colour colour, double opacity) {
-    colour.alpha = mixed(0, colour.alpha, opacity);
-    return colour;
+    const Colour clear{colour.red, colour.green, colour.blue, 0};
+    return mixed(clear, colour, opacity);
 }
 
 /// Draws in other colours and with other widths.

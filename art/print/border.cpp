@@ -234,7 +234,7 @@ double border_room(const Border& border, const Page& page) {
 std::vector<Colour> border_colours(const Border& border, const std::optional<Colour>& ground) {
     constexpr double least = 0.14;  // in OKLab
     const Colour white = kolam_palette().front();
-    const Colour under = ground && ground->alpha > 0 ? *ground : Colour{255, 255, 255, 255};
+    const Colour under = ground_or_white(ground);
     const Colour pale_earth{0xe0, 0x7a, 0x50, 255};
     const bool is_light = lightness(under) > 0.6;
     if (border.kind == BorderKind::pattern) {

@@ -1,5 +1,6 @@
 #include "art/print/tiles.h"
 
+#include "art/style/white_paper.h"
 #include "engine/geometry/lettering.h"
 
 #include <fmt/format.h>
@@ -189,7 +190,7 @@ Print mark_print(const Page& page, double dpi, const std::optional<Colour>& grou
     print.page = page;
     print.dpi = dpi;
     print.title = "marks";
-    const Colour halo = ground && ground->alpha > 0 ? *ground : Colour{255, 255, 255, 255};
+    const Colour halo = ground_or_white(ground);
     const Colour ink = lightness(halo) < 0.6 ? Colour{255, 255, 255, 255} : Colour{0, 0, 0, 255};
     print.style.palette = {{halo.red, halo.green, halo.blue, 255}, ink, {0x20, 0x20, 0x20, 255}};
     print.style.stroke = {1.0, false, 1.0};

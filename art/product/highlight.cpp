@@ -1,5 +1,8 @@
 #include "art/product/highlight.h"
 
+#include "art/style/contrast.h"
+#include "art/style/white_paper.h"
+#include "engine/base/text.h"
 #include "engine/derivation/lineage.h"
 #include "engine/derivation/neighbourhood.h"
 
@@ -176,16 +179,15 @@ private:
 
 Style lit_style(const Style& given, bool has_choice) {
     constexpr double pale_line = 0.28, pale_fill = 0.1, pale_edge = 0.5;
-    const Colour ground = given.ground && given.ground->alpha > 0 ? *given.ground : Colour{255, 255, 255, 255};
     const std::vector<Colour> colours = lit_colours(given.ground);
     Colour ink = given.line_colour({});
     ink.alpha = 255;
     Style style = given;
-    style.palette = {mixed_colour(ink, ground, pale_line)};
+    style.palette = {tint(ink, given.ground, pale_line)};
     style.palette.insert(style.palette.end(), colours.begin(), colours.end());
-    style.palette.push_back(has_choice ? mixed_colour(ink, ground, pale_edge) : ink);
+    style.palette.push_back(has_choice ? tint(ink, given.ground, pale_edge) : ink);
     style.stroke_colour.reset();
-    style.fill = mixed_colour(ink, ground, pale_fill);
+    style.fill = tint(ink, given.ground, pale_fill);
     style.fields.reset();
     style.tile_colours.reset();
     style.decoration = {};
@@ -204,11 +206,10 @@ std::vector<Colour> lit_colours(const std::optional<Colour>& ground) {
             {0x5b, 0x7f, 0x2b, 255}, {0x7b, 0x4b, 0x94, 255}, {0xc2, 0x67, 0x8f, 255}};
 }
 
-Colour mixed_colour(Colour one, Colour other, double share) {
-    const auto mix = [&](std::uint8_t a, std::uint8_t b) {
-        return static_cast<std::uint8_t>(std::lround(share * a + (1 - share) * b));
-    };
-    return {mix(one.red, other.red), mix(one.green, other.green), mix(one.blue, other.blue), 255};
+Colour tint(Colour ink, const std::optional<Colour>& ground, double share) {
+    Colour result = mixed(ground_or_white(ground), ink, share);
+    result.alpha = 255;
+    return result;
 }
 
 LitDrawing lit_drawing(const Grammar& grammar, const Style& style, const Highlight& highlight, double budget,
@@ -228,8 +229,8 @@ LitDrawing lit_drawing(const Grammar& grammar, const Style& style, const Highlig
         refuse_highlight(highlight, fmt::format("no production is applied in step {}", highlight.step));
     }
     if (highlight.symbol && *highlight.symbol > traced.count) {
-        refuse_highlight(highlight, fmt::format("step {} replaces only {} {}", highlight.step, traced.count,
-                                                traced.count == 1 ? "symbol" : "symbols"));
+        refuse_highlight(highlight,
+                         fmt::format("step {} replaces only {}", highlight.step, counted(traced.count, "symbol")));
     }
     const auto written = grammar.written_out(traced.word);
     if (!written)
@@ -237,8 +238,7 @@ LitDrawing lit_drawing(const Grammar& grammar, const Style& style, const Highlig
             "'highlight' keeps whole words in memory: the word has more than 524,288 different modules");
     const int colours = static_cast<int>(lit_colours(style.ground).size());
     ColouredWord coloured(*written, colours, highlight.symbol, style.moves_draw());
-    std::string fact =
-        fmt::format("step {} replaces {} {}", highlight.step, traced.count, traced.count == 1 ? "symbol" : "symbols");
+    std::string fact = fmt::format("step {} replaces {}", highlight.step, counted(traced.count, "symbol"));
     if (highlight.symbol) fact += fmt::format("; number {} is {}", *highlight.symbol, traced.chosen);
     return {coloured.coloured(*written, traced.parts), lit_style(style, highlight.symbol.has_value()),
             std::move(fact)};

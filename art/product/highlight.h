@@ -19,13 +19,13 @@ struct LitDrawing {
 /// or those of one symbol in the first colour; everything else is pale. Edges of polygons keep their colour. Works
 /// with every system of words: tables, contexts, parameters, random choices, cuts, `interpret:`. Memory: two
 /// successive words, and 4 bytes for the origin of each symbol.
-/// @throws SettingError if there is no such step or symbol; BudgetError if the word is too long to be kept; WordError
+/// @throws SettingError if there is no such step or symbol; BudgetError if the words exceed the budget; WordError
 LitDrawing lit_drawing(const Grammar& grammar, const Style& style, const Highlight& highlight, double budget,
                        const Monitor& monitor);
 
 /// The colours of parts on a ground. @param ground  absent: white paper
 std::vector<Colour> lit_colours(const std::optional<Colour>& ground);
-/// A mixture of two colours: `share` of the first.
-Colour mixed_colour(Colour one, Colour other, double share);
+/// An opaque tint: `share` of an ink on a ground. @param ground  absent: white paper
+Colour tint(Colour ink, const std::optional<Colour>& ground, double share);
 
 }  // namespace sikku

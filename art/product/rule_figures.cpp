@@ -2,7 +2,9 @@
 
 #include "art/product/highlight.h"
 #include "art/writer/make_drawing.h"
+#include "engine/base/characters.h"
 #include "engine/base/diagnostic.h"
+#include "engine/base/text.h"
 #include "engine/derivation/lineage.h"
 #include "engine/derivation/neighbourhood.h"
 #include "engine/geometry/turtle.h"
@@ -33,17 +35,17 @@ struct ShownProduction {
     std::optional<ModuleWord> predecessor, successor;
 };
 
+/// The text in one line, with minus signs.
 std::string in_one_line(std::string_view text) {
+    const std::string words = fmt::format("{}", fmt::join(split_words(text, " \t\n\r"), " "));
     std::string result;
-    for (const char byte : text) {
-        const bool is_blank = byte == ' ' || byte == '\t' || byte == '\n' || byte == '\r';
-        if (!is_blank) {
-            result += byte == '-' ? std::string("−") : std::string(1, byte);
-        } else if (!result.empty() && result.back() != ' ') {
-            result += ' ';
+    for (const char byte : words) {
+        if (byte == '-') {
+            result += "−";
+        } else {
+            result += byte;
         }
     }
-    while (!result.empty() && result.back() == ' ') result.pop_back();
     return result;
 }
 
@@ -225,7 +227,7 @@ private:
         constexpr std::size_t most = 48;  // characters
         std::size_t characters = 0;
         for (std::size_t i = 0; i < text.size(); ++i) {
-            if ((static_cast<unsigned char>(text[i]) & 0xC0U) == 0x80U) continue;
+            if (is_continuation(text[i])) continue;
             if (characters++ == most) return text.substr(0, i) + "…";
         }
         return text;
@@ -399,10 +401,10 @@ private:
         style.tile_colours.reset();
         style.tile_edges = TileEdges::each;
         style.decoration = {};
-        const Colour ground = given.ground && given.ground->alpha > 0 ? *given.ground : Colour{255, 255, 255, 255};
         letter_colour_ = static_cast<int>(style.palette.size());
-        style.palette.push_back(lit_colours(given.ground).front());
-        style.palette.push_back(mixed_colour(lit_colours(given.ground).front(), ground, 0.16));
+        const Colour ink = lit_colours(given.ground).front();
+        style.palette.push_back(ink);
+        style.palette.push_back(tint(ink, given.ground, 0.16));
         return style;
     }
 

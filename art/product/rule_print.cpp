@@ -78,8 +78,7 @@ private:
         const Page& page = print().page;
         const SheetOptions sheet = options();
         const double letters = *sheet.letters;
-        const double title =
-            print().title.empty() ? 0 : std::clamp(std::min(page.width, page.height) * 0.032, 2.0, 40.0) * 2.2;
+        const double title = print().title.empty() ? 0 : sheet_title_height(page) * sheet_title_room;
         Window room{page.margin, page.margin + title, page.width - 2 * page.margin,
                     page.height - 2 * page.margin - title - (sheet.footer.empty() ? 0 : 2 * letters), 0};
         const RulePlaces places = places_of(found.figures.size(), room, 4.5 * letters);
@@ -91,20 +90,21 @@ private:
         const auto row_count = (found.figures.size() + places.columns - 1) / places.columns;
         const auto rows = static_cast<double>(row_count);
         room.top += std::max(0.0, (room.height - rows * places.down) / 2);
+        SheetCell model = print_cell(document(), settings(), folder(), drawing().font);
+        model.style = found.style;
+        model.may_be_empty = true;
+        const SheetCell arrow = arrow_cell();
         for (std::size_t i = 0; i < found.figures.size(); ++i) {
             const double left = room.left + static_cast<double>(i % places.columns) * places.across;
             const auto row = i / places.columns;
             const double top = room.top + static_cast<double>(row) * places.down;
-            add_production(found, i, places, left, top);
+            add_production(found.figures[i], model, arrow, places, left, top);
         }
     }
 
-    void add_production(const RuleFigures& found, std::size_t number, const RulePlaces& places, double left,
-                        double top) {
-        const RuleFigure& figure = found.figures[number];
-        SheetCell before = print_cell(document(), settings(), folder());
-        before.style = found.style;
-        before.may_be_empty = true;
+    void add_production(const RuleFigure& figure, const SheetCell& model, SheetCell arrow, const RulePlaces& places,
+                        double left, double top) {
+        SheetCell before = model;
         before.grammar = figure.predecessor;
         before.title = figure.before;
         before.caption = {figure.before};
@@ -116,7 +116,6 @@ private:
         before.frame = after.frame = extent;
         before.slot = Window{left, top, places.cell_width, places.cell_height, 0};
         after.slot = Window{left + places.cell_width + places.arrow, top, places.cell_width, places.cell_height, 0};
-        SheetCell arrow = arrow_cell();
         const double size = 0.62 * places.arrow;
         arrow.slot = Window{left + places.cell_width + (places.arrow - size) / 2,
                             top + (places.cell_height - size / 2) / 2, size, size / 2, 0};

@@ -6,6 +6,7 @@
 #include "engine/base/cost.h"
 #include "engine/language/grammar.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -58,6 +59,13 @@ struct SheetOptions : WriterOptions, PictureOptions, PlotSetup {
     /// Called with the number of symbols read since the last call, from one thread at a time; may throw to stop.
     std::function<void(std::uint64_t symbols)> watch;
 };
+
+/// Height of the capitals of a sheet's title if it fits the page's width, in millimetres.
+inline double sheet_title_height(const Page& page) {
+    return std::clamp(0.032 * std::min(page.width, page.height), 2.0, 40.0);
+}
+/// Height of a title without a subtitle and of the space below it, as part of the height of its capitals.
+constexpr double sheet_title_room = 2.2;
 
 /// The layout of a sheet, in millimetres from its top left corner.
 struct SheetLayout {

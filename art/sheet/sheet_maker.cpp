@@ -180,8 +180,8 @@ SheetMaker::Measures SheetMaker::measures(const Grid& grid) const {
     if (columns == 1 && !options_.gap) m.width = width;
     if (!(m.width > 0)) return {};
     const double gap = options_.gap ? *options_.gap : std::min(gap_share * m.width, 0.04 * shorter);
-    const double title = std::clamp(shorter * 0.032, 2.0, 40.0);
-    if (!options_.title.empty()) m.title = title * (options_.subtitle.empty() ? 2.2 : 3.1);
+    const double title = sheet_title_height(options_.page);
+    if (!options_.title.empty()) m.title = title * (options_.subtitle.empty() ? sheet_title_room : 3.1);
     const auto headings = static_cast<double>(std::count(grid.headed.begin(), grid.headed.end(), true));
     // Cells are about as high as their drawings; the remaining space widens the gaps, or stays free on both sides.
     const double shape = std::clamp(usual_shape_, 0.6, 1.7);
@@ -381,10 +381,9 @@ void SheetMaker::lay_out(const Grid& grid, const Measures& m) {
 /// Writes the title above all cells.
 void SheetMaker::write_title(double left) {
     const Page& page = options_.page;
-    const double shorter = std::min(page.width, page.height);
     if (!options_.title.empty()) {
         const double room = page.width - 2 * page.margin;
-        double height = std::clamp(shorter * 0.032, 2.0, 40.0);
+        double height = sheet_title_height(page);
         height = std::min(height, height * room / letters_.width(options_.title, height));
         const auto begin = [&](const std::string& text, double size) {
             return options_.is_centred ? aligned(text, size, page.margin, room) : left;

@@ -321,6 +321,14 @@ double colour_distance(Colour a, Colour b) {
     return glm::length(oklab(a) - oklab(b));
 }
 
+Colour mixed(Colour from, Colour to, double share) {
+    const auto channel = [&](std::uint8_t a, std::uint8_t b) {
+        return static_cast<std::uint8_t>(std::lround(a + share * (b - a)));
+    };
+    return {channel(from.red, to.red), channel(from.green, to.green), channel(from.blue, to.blue),
+            channel(from.alpha, to.alpha)};
+}
+
 double colour_difference(Colour a, Colour b) {
     return glm::length(cielab(a) - cielab(b));
 }

@@ -19,4 +19,7 @@ double contrast_ratio(Colour a, Colour b);
 /// Composites a colour over an opaque one.
 Colour laid_over(Colour colour, Colour ground);
 
+/// The colour at a share of the way from one colour to another, in each channel of sRGB and in alpha.
+Colour mixed(Colour from, Colour to, double share);
+
 }  // namespace sikku

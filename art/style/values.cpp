@@ -1,5 +1,6 @@
 #include "art/style/values.h"
 
+#include "engine/base/characters.h"
 #include "engine/base/decimal.h"
 #include "engine/base/text.h"
 
@@ -15,7 +16,7 @@ std::string quoted_value(std::string_view text) {
     constexpr std::size_t most_quoted = 40;
     if (text.size() <= most_quoted) return fmt::format("'{}'", text);
     std::size_t end = most_quoted;
-    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
+    while (end > 0 && is_continuation(text[end])) --end;
     return fmt::format("'{}…'", text.substr(0, end));
 }
 

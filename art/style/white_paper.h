@@ -9,6 +9,10 @@ namespace sikku {
 
 /// The colour of white paper.
 constexpr Colour white_paper{255, 255, 255, 255};
+/// The ground, or white paper if it is transparent.
+inline Colour ground_or_white(const std::optional<Colour>& ground) {
+    return ground && ground->alpha > 0 ? *ground : white_paper;
+}
 /// Red earth (*kaavi*), and a darker tone of it, in which ornaments are drawn on light grounds.
 constexpr Colour kaavi{0xb3, 0x45, 0x2c, 255};
 constexpr Colour deep_earth{0x6e, 0x2c, 0x1c, 255};

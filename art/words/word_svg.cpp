@@ -2,6 +2,7 @@
 
 #include "art/vector/svg.h"
 #include "art/words/tidy_tree.h"
+#include "engine/base/characters.h"
 #include "engine/base/text.h"
 
 #include <fmt/format.h>
@@ -122,18 +123,12 @@ double write_labels(const WordTable& table, double pitch, WordCanvas& canvas) {
     return width + 6;
 }
 
+/// The text in one line, with arrows.
 std::string single_spaced(std::string_view text) {
-    std::string result;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        if (text.substr(i, 3) == "-->") {
-            result += "→";
-            i += 2;
-        } else if (text[i] != ' ' && text[i] != '\t' && text[i] != '\n' && text[i] != '\r') {
-            result += text[i];
-        } else if (!result.empty() && result.back() != ' ') {
-            result += ' ';
-        }
-    }
+    constexpr std::string_view arrow = "-->";
+    std::string result = fmt::format("{}", fmt::join(split_words(text, " \t\n\r"), " "));
+    for (std::size_t at = 0; (at = result.find(arrow, at)) != std::string::npos;)
+        result.replace(at, arrow.size(), "→");
     return result;
 }
 
@@ -142,7 +137,7 @@ std::string cut_off(const std::string& text, std::size_t most) {
     if (text_columns(text) <= most) return text;
     std::string result;
     for (std::size_t i = 0, shown = 0; i < text.size(); ++i) {
-        if ((static_cast<unsigned char>(text[i]) & 0xC0U) != 0x80U && ++shown >= most) break;
+        if (!is_continuation(text[i]) && ++shown >= most) break;
         result += text[i];
     }
     return result + "…";

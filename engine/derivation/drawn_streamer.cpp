@@ -3,8 +3,6 @@
 #include "engine/base/threads.h"
 #include "engine/derivation/drawn_levels.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -178,7 +176,8 @@ public:
           texts_(levels.level(1).texts),
           options_(options),
           sink_(sink),
-          takes_text_(takes_text) {}
+          takes_text_(takes_text),
+          visited_(grammar, options) {}
 
     void stream() {
         std::vector<WordPart> parts(1);
@@ -237,8 +236,7 @@ private:
 
     void hand_over(const WordPart& part) {
         const std::string_view text = part.text();
-        visited_ += part.nodes();
-        if (visited_ >= next_look_) look();
+        visited_.add(part.nodes());
         if (takes_text_) {
             if (!text.empty()) sink_.text(text);
             if (options_.watch) options_.watch(text.size());
@@ -254,15 +252,6 @@ private:
         }
     }
 
-    void look() {
-        next_look_ = visited_ + between_watches;
-        if (static_cast<double>(visited_) > options_.most_nodes) {
-            throw BudgetError(fmt::format("deriving the word (n = {}) visits more nodes than the budget of {:.0f}",
-                                          grammar_.steps(), options_.most_nodes));
-        }
-        if (options_.watch) options_.watch(0);
-    }
-
     const Grammar& grammar_;
     const DrawnLevels& levels_;
     DrawnTexts texts_;
@@ -271,8 +260,7 @@ private:
     bool takes_text_;
     std::vector<Frame> frames_;
     std::size_t next_ = 0;  // symbol of the axiom
-    std::uint64_t visited_ = 0;
-    std::uint64_t next_look_ = between_watches;
+    VisitedNodes visited_;
     Word run_;
 };
 

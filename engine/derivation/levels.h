@@ -17,6 +17,25 @@ constexpr std::size_t longest_run = 4096;
 /// Number of symbols or frames between two calls of DerivationOptions::watch.
 constexpr std::uint64_t between_watches = std::uint64_t{1} << 16;
 
+/// Counts the nodes that are visited.
+class VisitedNodes {
+public:
+    VisitedNodes(const Grammar& grammar, const DerivationOptions& options) : grammar_(grammar), options_(options) {}
+    /// From time to time, compares the count with the budget, and calls DerivationOptions::watch. @throws BudgetError
+    void add(std::uint64_t nodes) {
+        count_ += nodes;
+        if (count_ >= next_look_) look();
+    }
+
+private:
+    void look();
+
+    const Grammar& grammar_;
+    const DerivationOptions& options_;
+    std::uint64_t count_ = 0;
+    std::uint64_t next_look_ = between_watches;
+};
+
 /// Tables by level: level 0 is the finished word; at level r, r tables are still to be applied. Adjacent levels of
 /// one table are stored as one stretch, so that a million steps take no memory.
 class Levels {
@@ -76,7 +95,7 @@ void stream_modules(const Grammar& grammar, const Levels& levels, const Derivati
 /// Expands the axiom of a grammar whose random choices have constant weights, if the word is expected to be long.
 /// Several threads expand parts; the calling thread delivers them in order. The result does not depend on the number
 /// of threads. For other grammars, does nothing and returns false. Does not finish the sink.
-/// Memory: about half a megabyte for each thread. @throws BudgetError
+/// Memory: usually half a megabyte for each thread, at most about 12. @throws BudgetError
 bool stream_drawn(const Grammar& grammar, const Levels& levels, const DerivationOptions& options, SymbolSink& sink);
 
 }  // namespace sikku

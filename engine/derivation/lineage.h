@@ -22,10 +22,6 @@ struct StepOrigins {
     std::vector<std::uint32_t> applied;
 };
 
-/// Like rewrite() in derivation.h. @param origins  receives the origins of the symbols of the result
-ModuleWord rewrite(const Grammar& grammar, const Table& table, const ModuleWord& word, std::int64_t step,
-                   const DerivationOptions& options, StepOrigins& origins);
-
 /// The word after a step of a derivation.
 struct LineageWord {
     std::int64_t steps = 0;

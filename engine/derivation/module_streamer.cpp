@@ -24,7 +24,8 @@ public:
           first_step_(grammar.steps_done() + 1),
           has_places_(grammar.is_stochastic()),
           options_(options),
-          sink_(sink) {
+          sink_(sink),
+          visited_(grammar, options) {
         for (const SymbolInfo& symbol : grammar.symbols()) arity_.push_back(symbol.arity);
         active_.assign(arity_.size(), 0);
         for (std::int64_t level = levels.count(); level > 0; level = levels.stretch_begin(level)) {
@@ -127,7 +128,7 @@ private:
                 level = rules.has_random_conditions() ? level - 1 : table_begin_;
                 continue;
             }
-            visit(1);
+            visited_.add(1);
             std::span<const Symbol> successor;
             std::span<const Expression> own;
             if (choices_->is_usable()) {
@@ -137,7 +138,7 @@ private:
                     if (count_ + Choices::most_written > longest_run) flush();
                     const std::size_t written =
                         choices_->write(chosen, place, chance.step + 1, symbols_.data() + count_);
-                    visit(written);
+                    visited_.add(written);
                     count_ += written;
                     top_ = top;
                     return;
@@ -159,7 +160,7 @@ private:
             if (level == 0 && successor.size() <= longest_run) {
                 // The last step is written directly into the run.
                 if (count_ + successor.size() > longest_run) flush();
-                visit(successor.size());
+                visited_.add(successor.size());
                 std::copy(successor.begin(), successor.end(), symbols_.begin() + static_cast<std::ptrdiff_t>(count_));
                 count_ += successor.size();
                 const std::span<const double> formals(stack_.data() + argument, arity_[symbol]);
@@ -195,7 +196,7 @@ private:
 
     void emit(const Symbol* symbols, std::size_t count, const double* arguments) {
         if (count == 0) return;
-        visit(count);
+        visited_.add(count);
         while (count > 0) {
             if (count_ + count > longest_run) flush();
             const std::size_t taken = std::min(count, longest_run);
@@ -207,20 +208,6 @@ private:
             symbols += taken;
             count -= taken;
         }
-    }
-
-    void visit(std::size_t nodes) {
-        visited_ += nodes;
-        if (visited_ >= next_look_) look();
-    }
-
-    void look() {
-        next_look_ = visited_ + between_watches;
-        if (static_cast<double>(visited_) > options_.most_nodes) {
-            throw BudgetError(fmt::format("deriving the word (n = {}) visits more nodes than the budget of {:.0f}",
-                                          grammar_.steps(), options_.most_nodes));
-        }
-        if (options_.watch) options_.watch(0);
     }
 
     void flush() {
@@ -253,8 +240,7 @@ private:
     std::size_t count_ = 0;
     std::vector<double> arguments_;
     std::size_t argument_count_ = 0;
-    std::uint64_t visited_ = 0;
-    std::uint64_t next_look_ = between_watches;
+    VisitedNodes visited_;
     std::uint64_t handed_over_ = 0;
     std::map<const Table*, std::unique_ptr<Choices>> choices_of_;  // for the tables used so far
     // The table of the level last requested and of the levels above table_begin_.
@@ -265,6 +251,15 @@ private:
 };
 
 }  // namespace
+
+void VisitedNodes::look() {
+    next_look_ = count_ + between_watches;
+    if (static_cast<double>(count_) > options_.most_nodes) {
+        throw BudgetError(fmt::format("deriving the word (n = {}) visits more nodes than the budget of {:.0f}",
+                                      grammar_.steps(), options_.most_nodes));
+    }
+    if (options_.watch) options_.watch(0);
+}
 
 void stream_modules(const Grammar& grammar, const Levels& levels, const DerivationOptions& options,
                     SymbolSink& sink) {

@@ -51,7 +51,7 @@ private:
         std::uint8_t set = 0;   ///< class of the symbol itself
         std::int8_t opens = 0;  ///< 1: a branch, from this side; -1: closes it
     };
-    /// What replaces a symbol: another symbol, or, from `first_text` on, a text.
+    /// The replacement of a symbol: a symbol if `code` is below `first_text`, otherwise a text.
     struct Outcome {
         std::uint8_t code = 0;
         std::uint8_t length = 1;

@@ -427,12 +427,6 @@ ModuleWord rewrite(const Grammar& grammar, const Table& table, const ModuleWord&
 }
 
 ModuleWord rewrite(const Grammar& grammar, const Table& table, const ModuleWord& word, std::int64_t step,
-                   const DerivationOptions& options, StepOrigins& origins) {
-    MatchingWork work(options);
-    return rewrite(grammar, table, word, step, options, work, origins);
-}
-
-ModuleWord rewrite(const Grammar& grammar, const Table& table, const ModuleWord& word, std::int64_t step,
                    const DerivationOptions& options, MatchingWork& work, StepOrigins& origins) {
     origins.parents.clear();
     origins.applied.clear();

@@ -1,5 +1,6 @@
 #include "engine/derivation/word_table.h"
 
+#include "engine/base/characters.h"
 #include "engine/base/text.h"
 
 #include <fmt/format.h>
@@ -239,7 +240,7 @@ std::size_t text_columns(std::string_view utf8) {
     std::size_t columns = 0;
     for (std::size_t i = 0; i < utf8.size();) {
         std::size_t end = i + 1;
-        while (end < utf8.size() && (static_cast<unsigned char>(utf8[end]) & 0xC0U) == 0x80U) ++end;
+        while (end < utf8.size() && is_continuation(utf8[end])) ++end;
         columns += is_combining(code_point(utf8.substr(i, end - i))) ? 0 : 1;
         i = end;
     }
