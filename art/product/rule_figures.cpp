@@ -458,9 +458,10 @@ private:
             figure.successor = decorated(after, size, &tile, 1, 0);
             return figure;
         }
-        glm::dvec2 growth = quotient(to.end, from.end);
-        // Tiles end where they began: they grow as steps do.
-        if (glm::length(growth) == 0 && from.polygons > 0 && to.polygons > 0) growth = growth_of_steps();
+        // Tiles grow as steps do. If no production replaces steps, they are cells, whose size is their own.
+        const bool are_tiles = from.polygons > 0 && to.polygons > 0;
+        glm::dvec2 growth = are_tiles ? growth_of_steps() : quotient(to.end, from.end);
+        figure.is_cell = are_tiles && glm::length(growth) == 0;
         if (!shows_before || glm::length(growth) == 0) growth = {1, 0};
         const double scale = glm::length(growth);
         const double turn = std::atan2(growth.y, growth.x) * 180 / std::numbers::pi;
@@ -534,13 +535,14 @@ private:
         return std::move(built).grammar(*lettered(size));
     }
 
-    /// A node as a tile: its name in the middle, dots where its drawing begins and ends.
+    /// A node as a tile: its name in the middle, a dot where its drawing begins and a ring where it ends.
     std::shared_ptr<const Grammar> tile_of(const Grammar& word, double size, const Box& tile,
                                            const Survey& to) const {
         CommandWord built(word);
         built.rectangle(tile, heading(), letter_colour_ + 1);
         built.dot({0, 0}, heading(), node_share * size, letter_colour_);
         built.dot(to.end, heading(), node_share * size, letter_colour_);
+        built.dot(to.end, heading(), 0.6 * node_share * size, letter_colour_ + 1);
         built.add(Action::colour_set, letter_colour_);
         double direction = heading();
         built.move((tile.low + tile.high) / 2.0, direction, false);

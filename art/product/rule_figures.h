@@ -15,6 +15,7 @@ namespace sikku {
 struct RuleFigure {
     std::string before, after;  ///< as the file writes them
     std::shared_ptr<const Grammar> predecessor, successor;
+    bool is_cell = false;  ///< a cell keeps its size, which compares with that of other cells
 };
 
 struct RuleFigures {
@@ -25,8 +26,8 @@ struct RuleFigures {
 
 /// Draws the productions of a pattern that derives words, in the order of the file. Productions under `interpret:`
 /// are applied, but not drawn. Productions with parameters use the values of their first application. A letter that
-/// draws nothing is a dot with its name; as a predecessor it is a tile of the size of its successor, with dots where
-/// the successor begins and ends.
+/// draws nothing is a dot with its name; as a predecessor it is a tile of the size of its successor, with a dot where
+/// the successor begins and a ring where it ends.
 /// @param nodes  budget of the derivation that finds the values of parameters; it visits at most 20 million symbols
 RuleFigures rule_figures(const Document& document, const Style& style, double nodes, const Monitor& monitor);
 

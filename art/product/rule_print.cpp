@@ -10,6 +10,7 @@
 #include "engine/language/document.h"
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 
 #include <algorithm>
 #include <stdexcept>
@@ -94,16 +95,23 @@ private:
         model.style = found.style;
         model.may_be_empty = true;
         const SheetCell arrow = arrow_cell();
+        glm::dvec2 largest_cell(0);
+        for (const RuleFigure& figure : found.figures) {
+            if (figure.is_cell) largest_cell = glm::max(largest_cell, common_extent(figure, model).box.size());
+        }
         for (std::size_t i = 0; i < found.figures.size(); ++i) {
             const double left = room.left + static_cast<double>(i % places.columns) * places.across;
             const auto row = i / places.columns;
             const double top = room.top + static_cast<double>(row) * places.down;
-            add_production(found.figures[i], model, arrow, places, left, top);
+            const RuleFigure& figure = found.figures[i];
+            DrawnExtent frame = common_extent(figure, model);
+            if (figure.is_cell) frame.box.high = frame.box.low + largest_cell;
+            add_production(figure, frame, model, arrow, places, left, top);
         }
     }
 
-    void add_production(const RuleFigure& figure, const SheetCell& model, SheetCell arrow, const RulePlaces& places,
-                        double left, double top) {
+    void add_production(const RuleFigure& figure, const DrawnExtent& frame, const SheetCell& model, SheetCell arrow,
+                        const RulePlaces& places, double left, double top) {
         SheetCell before = model;
         before.grammar = figure.predecessor;
         before.title = figure.before;
@@ -112,8 +120,7 @@ private:
         after.grammar = figure.successor;
         after.title = figure.before + " → " + figure.after;
         after.caption = {figure.after};
-        const DrawnExtent extent = common_extent(before, after);
-        before.frame = after.frame = extent;
+        before.frame = after.frame = frame;
         before.slot = Window{left, top, places.cell_width, places.cell_height, 0};
         after.slot = Window{left + places.cell_width + places.arrow, top, places.cell_width, places.cell_height, 0};
         const double size = 0.62 * places.arrow;
@@ -124,10 +131,10 @@ private:
         cells_.push_back(std::move(after));
     }
 
-    DrawnExtent common_extent(const SheetCell& one, const SheetCell& other) const {
+    static DrawnExtent common_extent(const RuleFigure& figure, const SheetCell& model) {
         DrawnExtent all;
-        for (const SheetCell* cell : {&one, &other}) {
-            const DrawnExtent extent = make_drawing(*cell->grammar, cell->style, *cell, Reading())->seen();
+        for (const auto& grammar : {figure.predecessor, figure.successor}) {
+            const DrawnExtent extent = make_drawing(*grammar, model.style, model, Reading())->seen();
             if (!extent.box.empty()) {
                 all.box.add(extent.box.low);
                 all.box.add(extent.box.high);

@@ -210,8 +210,11 @@ std::string latex_escaped(std::string_view text) {
             case '-':
                 result += "{-}";
                 break;
+            case '\'':
+                result += "\\textquotesingle{}";
+                break;
             case '`':
-                result += "{`}";  // ?` and !` would be ligatures
+                result += "\\textasciigrave{}";
                 break;
             case '{':
             case '}':

@@ -181,6 +181,17 @@ TEST(RuleFigures, TilesGrowAsStepsDo) {
     EXPECT_EQ(found.sentences, std::vector<std::string>{"f → −f++f− draws nothing"});
 }
 
+/// A short cell of Anabaena becomes a long one.
+TEST(RuleFigures, CellsKeepTheirSize) {
+    const RuleFigures found = figures_of(load("anabaena"));
+    ASSERT_EQ(found.figures.size(), 4U);
+    EXPECT_EQ(found.figures[2].before, "br");
+    const Survey is_short = survey_of(*found.figures[2].predecessor);
+    const Survey is_long = survey_of(*found.figures[2].successor);
+    EXPECT_LT(is_short.box.high.x - is_short.box.low.x, 0.7 * (is_long.box.high.x - is_long.box.low.x));
+    EXPECT_EQ(survey_of(*found.figures[3].predecessor).length, is_short.length);
+}
+
 TEST(RuleFigures, UseTheValuesOfTheFirstApplication) {
     // Equation 8 of the same paper: F(s) --> F(s/3) …, applied to F(1).
     const RuleFigures found = figures_of(load("snowflake"));

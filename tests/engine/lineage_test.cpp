@@ -201,8 +201,9 @@ TEST(WordTable, WritesTextMarkdownAndLatex) {
             "2 & \\multicolumn{3}{c}{\\replaced{a}} & \\multicolumn{2}{c}{\\replaced{b}} \\\\\n"
             "3 & \\multicolumn{2}{c}{\\replaced{a}} & \\replaced{b} & \\multicolumn{2}{c}{\\replaced{a}} \\\\\n"
             "4 & a & b & a & a & b \\\\\n"));
-    const Grammar ticks = parse("ticks", "axiom: A`B\n").grammar();
-    EXPECT_TRUE(has(words_as_latex(lay_out_words(ticks, lineage(ticks, 0)), ""), "& A & {`} & B"));
+    const Grammar ticks = parse("ticks", "axiom: A`'B\n").grammar();
+    EXPECT_TRUE(has(words_as_latex(lay_out_words(ticks, lineage(ticks, 0)), ""),
+                    "& A & \\textasciigrave{} & \\textquotesingle{} & B"));
 }
 
 /// Blocks of lines contain the same symbols in the same order.
