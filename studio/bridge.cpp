@@ -60,13 +60,13 @@ Json answer_patterns() {
     return {{"patterns", std::move(list)}};
 }
 
-/// The texts of the bundled patterns, in the order of `patterns`, without compiling them.
-Json answer_texts() {
-    Json list = Json::array();
+/// The texts of the bundled patterns, in the order of `patterns`, without compiling them; a NUL between two of them.
+Json answer_texts(std::string& bytes) {
     for (const LibraryPattern& known : PatternLibrary::bundled().patterns()) {
-        list.push_back(read_pattern(PatternFile{known.name + ".lsys", known.file}));
+        if (!bytes.empty()) bytes += '\0';
+        bytes += read_pattern(PatternFile{known.name + ".lsys", known.file});
     }
-    return {{"texts", std::move(list)}};
+    return Json::object();
 }
 
 Json help_of(const Interpreter& interpreter) {
@@ -184,7 +184,7 @@ Json answer_check(const Json& request, const Monitor& monitor) {
 Json answer(const Json& request, const std::string& file, const Monitor& monitor, std::string& bytes) {
     const std::string what = text_of(request, "do");
     if (what == "patterns") return answer_patterns();
-    if (what == "texts") return answer_texts();
+    if (what == "texts") return answer_texts(bytes);
     if (what == "arrangements") return answer_arrangements();
     if (what == "help") return answer_help();
     if (what == "open") return answer_open(request, monitor);

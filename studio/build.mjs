@@ -39,6 +39,7 @@ async function bundle(entry) {
         logLevel: "warning",
         external: ["module", "fs", "path", "url", "crypto", "worker_threads"],
         define: { "import.meta.url": '""', "import.meta": "{}" },
+        loader: { ".lsys": "text" },
         plugins: [facts_as_module, notices_as_module, styles_as_text, workers_as_text],
     });
     return result.outputFiles[0].text.replaceAll("</script", "<\\/script").replaceAll("<!--", "<\\!--");
@@ -62,8 +63,8 @@ const notices_as_module = made("notices", /^notices$/, () => ({
 
 // Facts about patterns, arrangements and options, which would take the page a second to request from the libraries. The
 // texts of the patterns are in the libraries.
-const facts_as_module = made("facts", /^library-facts$/, async () => {
-    const ask = await loadBridge(bridge);
+const ask = await loadBridge(bridge);
+const facts_as_module = made("facts", /^library-facts$/, () => {
     const answer = (what) => JSON.parse(ask(JSON.stringify({ do: what })).json);
     const patterns = answer("patterns").patterns.map(({ text, ...facts }) => facts);
     const { arrangements } = answer("arrangements");
@@ -116,11 +117,22 @@ function packed(contents) {
     return `${bytes.length} ${whole.length} ${letters.toString("latin1")}`;
 }
 
+// The page of the first pattern as SVG.
+function draft() {
+    const text = readFileSync(join(here, "page/first.lsys"), "utf8");
+    const pattern = { name: "first.lsys", text, variant: "", settings: [] };
+    const { json, bytes } = ask(JSON.stringify({ do: "make", interpreter: "draw", format: "svg", pattern }));
+    const { error } = JSON.parse(json);
+    if (error) throw new Error(error.message);
+    return bytes;
+}
+
 const boot = await bundle("boot.ts");
 const parts = {
     style: await style([page_style]),
     boot,
     "script-hash": `'sha256-${createHash("sha256").update(boot).digest("base64")}'`,
+    draft: packed(draft()),
     script: packed(await bundle("main.ts")),
     worker: packed(await bundle("worker.ts")),
     libraries: packed(readFileSync(join(bridge, "sikku-bridge.wasm"))),

@@ -90,7 +90,7 @@ bool InputStream::skip_text(std::string_view text) {
 
 std::string read_stream(std::FILE* stream, const std::string& name, std::size_t most, const Monitor& monitor) {
     std::string text;
-    std::vector<char> block(std::size_t{1} << 16);
+    std::string block(std::size_t{1} << 16, '\0');
     while (text.size() <= most) {
         const std::size_t got = std::fread(block.data(), 1, std::min(block.size(), most + 1 - text.size()), stream);
         const int error = errno;

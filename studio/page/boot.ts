@@ -1,18 +1,66 @@
-// The only script that is not compressed in the page: it unpacks the others.
-import { scriptAddress } from "./embedded";
+// The only script that is not compressed in the page: it shows the first picture and unpacks the others. The libraries are
+// unpacked by a worker that runs this script, too.
+import { packedText, scriptAddress, unpackText } from "./embedded";
+import { hasSavedWork } from "./storage";
 import { troubleOf } from "./trouble";
+
+declare global {
+    /// The libraries, once they are unpacked.
+    var sikkuLibraries: Promise<ArrayBuffer>; // `let` would not be global
+}
+
+const own_text = typeof document === "undefined" ? "" : document.currentScript!.textContent!;
+
+function serve(): void {
+    onmessage = ({ data }: MessageEvent<string>) => {
+        const { buffer } = unpackText(data);
+        (postMessage as (message: ArrayBuffer, transfer: Transferable[]) => void)(buffer, [buffer]);
+    };
+}
+
+function unpackLibraries(): Promise<ArrayBuffer> {
+    return new Promise((resolve, reject) => {
+        const worker = new Worker(URL.createObjectURL(new Blob([own_text], { type: "text/javascript" })));
+        worker.onmessage = ({ data }: MessageEvent<ArrayBuffer>) => {
+            worker.terminate();
+            resolve(data);
+        };
+        worker.onerror = ({ message }) => reject(new Error(`the worker does not start: ${message}`));
+        worker.postMessage(packedText("sikku-libraries"));
+    });
+}
+
+// The picture of the first pattern, which the page shows until the libraries have drawn it: visitors who come for the
+// first time see it at once.
+function showDraft(): void {
+    if (hasSavedWork() || location.hash.length > 1 || packedText("sikku-patterns") !== "[]") return;
+    const text = new TextDecoder().decode(unpackText(packedText("sikku-draft")));
+    const draft = document.createElement("div");
+    draft.id = draft.className = "draft";
+    draft.append(new DOMParser().parseFromString(text, "image/svg+xml").documentElement);
+    document.getElementById("panels")!.replaceChildren(draft);
+}
 
 function fail(error: unknown): void {
     const { sentence } = troubleOf(error);
-    document.getElementById("message")!.textContent = document.querySelector(".panels .empty")!.textContent = sentence;
+    const note = document.createElement("p");
+    note.className = "empty";
+    document.getElementById("message")!.textContent = note.textContent = sentence;
+    document.getElementById("panels")!.replaceChildren(note);
 }
 
-scriptAddress("sikku-script").then(
-    (address) => {
-        const script = document.createElement("script");
-        script.src = address;
-        script.onerror = () => fail(new Error("the browser does not run the page's script"));
-        document.body.append(script);
-    },
-    fail,
-);
+async function begin(): Promise<void> {
+    globalThis.sikkuLibraries = unpackLibraries();
+    globalThis.sikkuLibraries.catch(() => {}); // the script reports it
+    const script = document.createElement("script");
+    script.src = scriptAddress("sikku-script");
+    script.onerror = () => fail(new Error("the browser does not run the page's script"));
+    document.body.append(script);
+}
+
+if (own_text === "") {
+    serve();
+} else {
+    showDraft();
+    addEventListener("DOMContentLoaded", () => void begin().catch(fail));
+}

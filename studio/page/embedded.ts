@@ -15,14 +15,18 @@ function decode(text: string, start: number, size: number): Uint8Array<ArrayBuff
     return new Uint8Array(words.buffer, 0, size);
 }
 
+/// The contents of an element, as they are in the page.
+export function packedText(id: string): string {
+    return document.getElementById(id)!.textContent!.trim();
+}
+
 /// Decompresses the contents of an element.
-export async function unpack(id: string): Promise<ArrayBuffer> {
-    const text = document.getElementById(id)!.textContent!.trim();
+export function unpackText(text: string): Uint8Array<ArrayBuffer> {
     const [packed, whole] = text.split(" ", 2).map(Number) as [number, number];
-    return unpackLzma(decode(text, text.lastIndexOf(" ") + 1, packed), whole).buffer;
+    return unpackLzma(decode(text, text.lastIndexOf(" ") + 1, packed), whole);
 }
 
 /// Decompresses a script, and returns a Blob address for it.
-export async function scriptAddress(id: string): Promise<string> {
-    return URL.createObjectURL(new Blob([await unpack(id)], { type: "text/javascript" }));
+export function scriptAddress(id: string): string {
+    return URL.createObjectURL(new Blob([unpackText(packedText(id))], { type: "text/javascript" }));
 }

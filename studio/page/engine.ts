@@ -2,7 +2,7 @@
 // and only the last one waits, so that a moving slider gets its pictures in order and without a queue.
 import type { Answer, Engine, RequestOptions } from "./context";
 import { RequestFailed } from "./context";
-import { scriptAddress, unpack } from "./embedded";
+import { scriptAddress } from "./embedded";
 import type { Failure, Request } from "./protocol";
 
 export type ToWorker = { module: WebAssembly.Module } | { id: number; json: string; bytes?: Uint8Array };
@@ -55,13 +55,20 @@ export class Pool implements Engine {
     private last = 0;
     private failures = 0; // of starts, in a row
     private broken: RequestFailed | null = null; // why no worker starts
+    private module: WebAssembly.Module | null = null; // requests wait until it is there
 
     constructor(
-        private readonly module: WebAssembly.Module,
         private readonly address: string,
         readonly workers: number,
     ) {
         for (let index = 0; index < workers; ++index) this.seats.push(this.seat());
+    }
+
+    /// Gives the workers the libraries.
+    start(module: WebAssembly.Module): void {
+        this.module = module;
+        for (const seat of this.seats) this.begin(seat.worker, module);
+        this.next();
     }
 
     request<T>(request: Request, options: RequestOptions = {}): Promise<Answer<T>> {
@@ -155,6 +162,7 @@ export class Pool implements Engine {
     }
 
     private next(): void {
+        if (!this.module) return;
         for (const name of ["front", "back"] as const) {
             const lane = this.waiting[name];
             for (let index = 0; index < lane.length;) {
@@ -189,11 +197,15 @@ export class Pool implements Engine {
             if (!seat.isReady) this.bury(seat, event.message);
             else if (seat.job) this.stop(seat, new RequestFailed({ kind: "other", message: event.message }));
         };
-        worker.postMessage({ module: this.module } satisfies ToWorker);
+        if (this.module) this.begin(worker, this.module);
+        return seat;
+    }
+
+    private begin(worker: Worker, module: WebAssembly.Module): void {
+        worker.postMessage({ module } satisfies ToWorker);
         for (const { json, bytes } of this.scales.values()) {
             worker.postMessage({ id: 0, json, bytes } satisfies ToWorker);
         }
-        return seat;
     }
 
     // False for a worker that has been replaced.
@@ -212,6 +224,7 @@ export class Pool implements Engine {
             reject(error);
         };
         const message: ToWorker = { id: 0, json, bytes };
+        if (!this.module) return; // they get it when they start
         for (const seat of this.seats) if (!seat.isDead) seat.worker.postMessage(message);
     }
 
@@ -241,12 +254,8 @@ export class Pool implements Engine {
     }
 }
 
-/// Starts the libraries in the page.
-export async function startEngine(): Promise<Engine> {
-    const [module, address] = await Promise.all([
-        unpack("sikku-libraries").then((bytes) => WebAssembly.compile(bytes)),
-        scriptAddress("sikku-worker"),
-    ]);
+/// Starts the workers of the page, which do not have the libraries yet.
+export function startWorkers(): Pool {
     const workers = Math.max(2, Math.min(navigator.hardwareConcurrency || 2, most_workers));
-    return new Pool(module, address, workers);
+    return new Pool(scriptAddress("sikku-worker"), workers);
 }

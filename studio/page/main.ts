@@ -2,12 +2,13 @@
 import { Application } from "./application";
 import { watchBack } from "./back";
 import { makeBenchPanel } from "./bench";
-import { messageOf, type Work } from "./context";
+import { messageOf, type Engine, type Work } from "./context";
 import { Controls } from "./controls";
 import { Editor } from "./editor";
 import { button, byId, element } from "./elements";
-import { startEngine } from "./engine";
+import { startWorkers } from "./engine";
 import { makeExplanation } from "./explain";
+import firstText from "./first.lsys";
 import { makeGalleryPanel } from "./gallery";
 import { givenEntries, openGiven } from "./given";
 import { Guide } from "./guide";
@@ -18,7 +19,6 @@ import { acceptDrops } from "./open_file";
 import panelStyles from "panel-styles";
 import { Panels } from "./panels";
 import { makePlayPanel } from "./play";
-import type { Texts } from "./protocol";
 import { restoreScales } from "./scales";
 import { watchLinks } from "./share";
 import { makeSpacePanel } from "./space";
@@ -29,26 +29,18 @@ import { troubleOf } from "./trouble";
 import { makeVariationsPanel } from "./variations";
 import { view, viewedLink } from "./viewing";
 
-const first_text = `title: Snake kolam
-source: Prusinkiewicz & Hanan 1989, figure 6.2
-
-derivation length: 4
-angle factor: 4
-axiom: f+Xf+f+Xf
-X --> Xf-f-f+Xf+f+Xf-f-f+X
-
-ground: #8c3b2a
-stroke: 0.22 step #fffaf0
-line: spline
-`;
-
 const first: Work = {
-    pattern: { name: "snake-kolam.lsys", text: first_text, variant: "", settings: [] },
+    pattern: { name: "snake-kolam.lsys", text: firstText, variant: "", settings: [] },
     draw: [],
     play: [],
     place: null,
     panel: "map",
 };
+
+async function textsOfPatterns(engine: Engine): Promise<string[]> {
+    const { bytes } = await engine.request({ do: "texts" });
+    return new TextDecoder().decode(bytes).split("\0");
+}
 
 async function main(): Promise<void> {
     document.head.append(element("style", {}, panelStyles));
@@ -56,7 +48,8 @@ async function main(): Promise<void> {
     makeLayout();
     const viewed = viewedLink(location.hash);
     const store = new History(first, viewed === null);
-    const engine = await startEngine();
+    const engine = startWorkers();
+    const libraries = globalThis.sikkuLibraries.then((bytes) => WebAssembly.compile(bytes)).then((module) => engine.start(module));
     const application = new Application(engine, store);
     store.onUnsaved(() =>
         application.say(
@@ -65,20 +58,27 @@ async function main(): Promise<void> {
         ),
     );
     restoreScales(engine);
+    application.help = libraryFacts.help;
     new Editor(application);
     new Controls(application);
-    if (viewed !== null) return showOnly(application, viewed);
+    const panels = new Panels(application);
+    if (viewed !== null) {
+        await libraries;
+        return showOnly(application, panels, viewed);
+    }
     const given = givenEntries();
     if (given[0] && !store.history.some(({ work }) => work.pattern.text === given[0]!.text)) {
         openGiven(application, given[0].name);
     }
+    // The picture does not wait for the texts of the patterns, which the other views need.
+    const isMapFirst = store.work.panel === "map";
+    if (isMapFirst) panels.build([makeMapPanel]);
     const opening = application.open();
-    const { texts } = (await engine.request<Texts>({ do: "texts" })).json;
+    const [texts] = await Promise.all([textsOfPatterns(engine), libraries]);
     application.patterns = [...given, ...libraryFacts.patterns.map((entry, at) => ({ ...entry, text: texts[at]! }))];
     application.arrangements = libraryFacts.arrangements;
-    application.help = libraryFacts.help;
-    new Panels(application, [
-        makeMapPanel,
+    panels.build([
+        ...(isMapFirst ? [] : [makeMapPanel]),
         makeGalleryPanel,
         makeBenchPanel,
         makePlayPanel,
@@ -101,15 +101,14 @@ async function main(): Promise<void> {
 }
 
 // A page that only shows the work of a link.
-async function showOnly(application: Application, link: string): Promise<void> {
-    application.help = libraryFacts.help;
+async function showOnly(application: Application, panels: Panels, link: string): Promise<void> {
     application.patterns = [];
     try {
         await view(application, link, libraryFacts.help);
     } catch (error) {
         throw new Error(`the link cannot be read: ${messageOf(error)}`);
     }
-    new Panels(application, [makeMapPanel, makePlayPanel, makeStepsPanel, makeSpacePanel]);
+    panels.build([makeMapPanel, makePlayPanel, makeStepsPanel, makeSpacePanel]);
     await application.open();
     if (application.hasErrors) byId("panels").append(element("p", { class: "note error" }, "The text of this pattern has errors."));
 }

@@ -54,7 +54,8 @@ export const makeMapPanel: MakePanel = (studio) => {
         element("div", { class: "map-pair" }, toDrawing, toPage),
     );
     const word = makeMapWord(studio);
-    const panel = element("div", { class: "map" }, canvas, hint, word.element, problem, tools, place.element);
+    const draft = document.getElementById("draft") ?? "";
+    const panel = element("div", { class: "map" }, draft, canvas, hint, word.element, problem, tools, place.element);
 
     addGestures(view, (at) => {
         pointer = at;

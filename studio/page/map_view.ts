@@ -172,6 +172,7 @@ export class MapView {
 
     setFacts(facts: Opened, work: Work): void {
         this.facts = { facts, pattern: work.pattern };
+        if (this.overview) this.overview = this.placed(this.overview);
         if (!facts.extent && !facts.is_spatial) void this.measure(facts, work);
         if (this.mode === "plane" && facts.is_spatial) this.mode = "page";
         this.refresh();
@@ -437,6 +438,15 @@ export class MapView {
         );
     }
 
+    // A page that was asked for before the facts of its pattern were known gets its camera and ground.
+    private placed(overview: Overview): Overview {
+        const { facts, studio, work } = this;
+        if (overview.camera || overview.kind !== "page" || overview.name !== this.pageName || !this.known) return overview;
+        const sheet = sheetOf(studio.help, work.draw);
+        const camera = cameraOfSheet(sheet, overview.laid, overview.size, facts!.facts, studio.help, work.draw);
+        return { ...overview, camera, ground: this.groundOf(work) };
+    }
+
     private refreshPlane(): void {
         const { overview } = this;
         const isOfPage = overview?.kind === "page" && overview.name === this.pageName && overview.camera !== null;
@@ -465,7 +475,7 @@ export class MapView {
     private take(overview: Overview, warnings: string[]): void {
         if (overview.kind !== this.mode && this.overview) return overview.bitmap.close();
         this.overview?.bitmap.close();
-        this.overview = overview;
+        this.overview = this.placed(overview);
         this.isForeign = isAnother(overview.pattern, this.work.pattern);
         this.since = performance.now();
         if (this.isCurrent) this.failed = null;
@@ -540,6 +550,7 @@ export class MapView {
     private paint(now: number): void {
         const { overview, painter } = this;
         painter.clear();
+        if (overview || this.failure) document.getElementById("draft")?.remove();
         if (!overview) {
             if (this.failure) painter.blank(this.laid);
             return;

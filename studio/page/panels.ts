@@ -1,5 +1,4 @@
-// The tabs, and the panels below them. Panels are built when the libraries have started; if one fails, the others still
-// work.
+// The tabs, and the panels below them. If a panel fails, the others still work.
 import type { MakePanel, Panel, Studio } from "./context";
 import { byId, element } from "./elements";
 
@@ -7,21 +6,22 @@ export class Panels {
     private readonly panels: Panel[] = [];
     private shown: Panel | null = null;
 
-    constructor(
-        private readonly studio: Studio,
-        makers: MakePanel[],
-    ) {
-        byId("panels").replaceChildren();
+    constructor(private readonly studio: Studio) {
+        studio.store.subscribe((work) => this.choose(work.panel));
+    }
+
+    /// Builds panels, and shows that of the work, or the first one.
+    build(makers: MakePanel[]): void {
+        for (const note of byId("panels").querySelectorAll(":scope > .empty, :scope > .broken")) note.remove();
         for (const make of makers) {
             try {
-                this.add(make(studio));
+                this.add(make(this.studio));
             } catch (error) {
                 console.error(error);
-                studio.say(`One view failed to start: ${String(error)}`, "error");
+                this.studio.say(`One view failed to start: ${String(error)}`, "error");
             }
         }
-        studio.store.subscribe((work) => this.choose(work.panel));
-        this.choose(studio.store.work.panel);
+        this.choose(this.studio.store.work.panel);
     }
 
     private add(panel: Panel): void {

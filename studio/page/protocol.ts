@@ -14,7 +14,7 @@ export type Options = [string, string][]; // names as in `help`; flags have the 
 /// Requests. All except `patterns`, `arrangements`, `help`, `show`, `import`, `link`, `dots`, `grid` and `read` concern a pattern.
 export type Request =
     | { do: "patterns" }
-    | { do: "texts" }
+    | { do: "texts" } // as bytes, with a NUL between two texts
     | { do: "arrangements" }
     | { do: "help" }
     | { do: "open"; pattern: PatternRequest }
@@ -111,7 +111,6 @@ export interface Failure {
 
 export interface PatternEntry { name: string; kind: string; title: string; source: string; text: string; is_melody: boolean; is_spatial: boolean }
 export interface Patterns { patterns: PatternEntry[] }
-export interface Texts { texts: string[] } // of the patterns, in their order
 /// An arrangement: several patterns played as one piece, as TOML.
 export interface ArrangementRequest { name: string; text: string } // name: in messages: `canon.toml`
 export interface ArrangementEntry extends ArrangementRequest { title: string; source: string; parts: number }

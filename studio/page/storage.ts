@@ -9,6 +9,14 @@ export function remembered<Value>(name: string, absent: Value): Value {
     }
 }
 
+/// The name under which the history of the work is kept.
+export const work_key = "sikku-studio";
+
+/// True if an earlier visit has left its work.
+export function hasSavedWork(): boolean {
+    return remembered<unknown>(work_key, null) !== null;
+}
+
 /// False if the browser has no room for it, or no storage: then it lasts as long as the page.
 export function remember(name: string, value: unknown): boolean {
     try {

@@ -1,14 +1,13 @@
 // The user's work and its history, stored in the browser so that a reload loses nothing.
 import type { Store, Work } from "./context";
 import { withOption } from "./options";
-import { remember } from "./storage";
+import { remember, work_key } from "./storage";
 import { isAnother, renamed } from "./versions";
 
 const most_steps = 100;
 const merge_milliseconds = 1000;
 const most_saved = 4_000_000; // characters; browsers keep about five million
 const most_tried = 3 * most_saved; // characters of a single step
-const storage_key = "sikku-studio";
 
 /// A state that undo returns to.
 export interface Step {
@@ -176,7 +175,7 @@ export class History implements Store {
 }
 
 function store(saved: Saved): boolean {
-    return (saved.steps.length > 1 || sizeOf(saved.steps[0]!) <= most_tried) && remember(storage_key, saved);
+    return (saved.steps.length > 1 || sizeOf(saved.steps[0]!) <= most_tried) && remember(work_key, saved);
 }
 
 function sizeOf(step: Step): number {
@@ -222,9 +221,9 @@ function isWork(work: Work): boolean {
 /// Sets the saved work aside, for a page that cannot start with it.
 export function putAside(): void {
     try {
-        const saved = localStorage.getItem(storage_key) ?? "";
-        localStorage.removeItem(storage_key);
-        localStorage.setItem(`${storage_key}-aside`, saved);
+        const saved = localStorage.getItem(work_key) ?? "";
+        localStorage.removeItem(work_key);
+        localStorage.setItem(`${work_key}-aside`, saved);
     } catch {
         // a copy is good to have, a page that starts is better; a browser may have no storage at all
     }
@@ -232,7 +231,7 @@ export function putAside(): void {
 
 function read(): Saved | null {
     try {
-        const saved = JSON.parse(localStorage.getItem(storage_key) ?? "null") as Saved | null;
+        const saved = JSON.parse(localStorage.getItem(work_key) ?? "null") as Saved | null;
         return saved?.steps[saved.at] && saved.steps.every((step) => isWork(step.work)) ? saved : null;
     } catch {
         return null;

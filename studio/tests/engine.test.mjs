@@ -32,14 +32,31 @@ globalThis.Worker = class {
 const { Pool } = await load("engine");
 const turn = () => new Promise((done) => setTimeout(done, 0));
 const ask = { do: "patterns" };
+function started(count) {
+    const pool = new Pool("", count);
+    pool.start({});
+    return pool;
+}
 
 beforeEach(() => {
     workers = [];
     onStart = () => {};
 });
 
+test("requests and files wait until the libraries are there", async () => {
+    const pool = new Pool("", 1);
+    const scale = pool.request({ do: "scale", name: "x.scl" }, { bytes: new Uint8Array(1) });
+    assert.deepEqual(workers[0].sent, []);
+    const module = {};
+    pool.start(module);
+    assert.deepEqual(workers[0].sent[0], { module });
+    assert.equal(workers[0].sent[1].id, 0);
+    workers[0].answer({});
+    assert.deepEqual((await scale).json, {});
+});
+
 test("a worker that does not start is replaced, and its request fails with the cause", async () => {
-    const pool = new Pool({}, "", 2);
+    const pool = started(2);
     const [first, second] = workers;
     const request = pool.request(ask);
     first.tell({ failed: "no memory for it" });
@@ -57,7 +74,7 @@ test("a worker that does not start is replaced, and its request fails with the c
 
 test("if no worker starts, requests fail at once", async () => {
     onStart = (worker) => setTimeout(() => worker.tell({ failed: "no WebAssembly" }));
-    const pool = new Pool({}, "", 3);
+    const pool = started(3);
     const results = await Promise.allSettled(Array.from({ length: 8 }, () => pool.request(ask)));
     assert.ok(results.every(({ reason }) => /no WebAssembly/.test(reason.failure.message)));
     const count = workers.length;
@@ -69,7 +86,7 @@ test("if no worker starts, requests fail at once", async () => {
 
 test("an error before the start counts as a failed start", async () => {
     onStart = (worker) => setTimeout(() => worker.onerror({ message: "blocked", preventDefault() {} }));
-    const pool = new Pool({}, "", 2);
+    const pool = started(2);
     await assert.rejects(pool.request(ask), /blocked/);
     await turn();
     await turn();
@@ -77,7 +94,7 @@ test("an error before the start counts as a failed start", async () => {
 });
 
 test("workers that started go on without one that does not", async () => {
-    const pool = new Pool({}, "", 2);
+    const pool = started(2);
     const [one, two] = workers;
     two.tell({ failed: "first" });
     workers[2].tell({ failed: "second" });
@@ -90,7 +107,7 @@ test("workers that started go on without one that does not", async () => {
 });
 
 test("a worker without memory is renewed", async () => {
-    const pool = new Pool({}, "", 1);
+    const pool = started(1);
     const [worker] = workers;
     worker.tell({ ready: true });
     const request = pool.request(ask);
@@ -109,7 +126,7 @@ test("a worker without memory is renewed", async () => {
 });
 
 test("new workers know the scales, but not those with errors", async () => {
-    const pool = new Pool({}, "", 1);
+    const pool = started(1);
     const bytes = new Uint8Array(3);
     const good = pool.request({ do: "scale", name: "good.scl" }, { bytes });
     workers[0].answer({ name: "good.scl" });

@@ -588,6 +588,53 @@ const tests = {
         await close(page);
     },
 
+    async "a first visit shows the picture before the libraries have started"() {
+        const stall = () => { WebAssembly.compile = (bytes) => new Promise((go) => { globalThis.go = () => go(new WebAssembly.Module(bytes)); }); };
+        for (const viewport of [{ width: 1280, height: 800 }, { width: 390, height: 844 }]) {
+            const page = await visit({ prepare: stall, viewport, ready: false });
+            const draft = page.locator("#panel-map #draft svg");
+            await draft.waitFor();
+            assert.equal(await page.locator(".map-canvas[data-shows]").count(), 0);
+            const edges = (box) => [box.x, box.y, box.x + box.width, box.y + box.height].map(Math.round);
+            const before = edges(await draft.locator("rect").first().boundingBox());
+            assert.ok(await draft.locator("path").first().isVisible());
+            await page.locator("#guide button.primary").waitFor({ state: "hidden" });
+            await page.waitForFunction(() => globalThis.go);
+            await page.evaluate(() => globalThis.go());
+            await page.locator(".map-canvas[data-shows]").waitFor();
+            await page.locator("#draft").waitFor({ state: "detached" });
+            await page.getByRole("button", { name: "Close the guide" }).click(); // it makes the map smaller
+            const after = await page.evaluate(async () => {
+                const canvas = document.querySelector(".map-canvas");
+                for (let frame = 0; frame < 30; ++frame) await new Promise(requestAnimationFrame);
+                const { left, top } = canvas.getBoundingClientRect();
+                const { data, width, height } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+                const edges = [width, height, 0, 0];
+                for (let at = 0; at < width * height; ++at) {
+                    if (data[4 * at] !== 0x8c || data[4 * at + 1] !== 0x3b || data[4 * at + 2] !== 0x2a) continue;
+                    const [x, y] = [at % width, Math.floor(at / width)];
+                    edges.splice(0, 4, Math.min(edges[0], x), Math.min(edges[1], y), Math.max(edges[2], x + 1), Math.max(edges[3], y + 1));
+                }
+                return [edges[0] + left, edges[1] + top, edges[2] + left, edges[3] + top].map(Math.round);
+            });
+            const most = viewport.width < 480 ? 8 : 3; // the status bar of a narrow page gets a second line
+            for (const [at, edge] of after.entries()) assert.ok(Math.abs(edge - before[at]) <= most, `${before} became ${after}`);
+            await page.context().close();
+        }
+    },
+
+    async "a link or saved work shows no draft"() {
+        const stall = () => { WebAssembly.compile = () => new Promise(() => {}); };
+        const keep = () => localStorage.setItem("sikku-studio", JSON.stringify({ steps: [], at: 0 }));
+        for (const options of [{ fragment: "#p1" }, { prepare: `(${keep})(); (${stall})();` }]) {
+            const page = await visit({ prepare: stall, ready: false, ...options });
+            await page.locator(".brand").waitFor();
+            await page.waitForFunction(() => document.readyState === "complete");
+            assert.equal(await page.locator("#draft").count(), 0);
+            await page.context().close();
+        }
+    },
+
     async "a browser without WebAssembly gets a sentence, not an empty page"() {
         for (const prepare of [
             () => { delete globalThis.WebAssembly; },

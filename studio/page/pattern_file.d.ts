@@ -1,0 +1,5 @@
+// Patterns as texts.
+declare module "*.lsys" {
+    const text: string;
+    export default text;
+}
