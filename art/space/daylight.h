@@ -57,7 +57,9 @@ public:
     float ground() const { return casters_.ground(); }
 
 private:
-    void make_heights();
+    bool shines_sky() const { return light_.sun < 1; }
+    bool shines_sun() const { return light_.sun > 0; }
+    std::vector<DepthMap*> make_heights();
     void find_open_ground();
     void find_shadow(const DepthMap& map);
     int tiles_around() const;
