@@ -185,6 +185,7 @@ std::vector<float> Daylight::sky_on_ground(std::span<const glm::vec3> points) co
 
 std::vector<float> Daylight::sun_on_ground(std::span<const glm::vec3> points) const {
     std::vector<float> result(points.size(), open_sun_);
+    if (!shines_sun()) return result;
     LitPlaces places;
     std::vector<std::size_t> dark;
     for (std::size_t i = 0; i < points.size(); ++i) {
