@@ -202,18 +202,19 @@ void Casters::add_polygons(const Scene& scene) {
 }
 
 void Casters::add_surfaces(const Scene& scene, double deviation) {
-    each_divided_patch(scene, {.deviation = deviation}, [&](int parts, std::span<const glm::vec3> points) {
-        const std::size_t first = make_room(points.size());
-        add_corners(points);
-        const auto n = static_cast<std::size_t>(parts);
-        for (std::size_t row = 0; row < n; ++row) {
-            for (std::size_t column = 0; column < n; ++column) {
-                const std::size_t corner = first + row * (n + 1) + column, opposite = corner + n + 2;
-                add_triangle(corner, corner + 1, opposite);
-                add_triangle(corner, opposite, opposite - 1);
+    each_divided_patch(
+        scene, {.deviation = deviation, .is_measured = true}, [&](int parts, std::span<const glm::vec3> points) {
+            const std::size_t first = make_room(points.size());
+            add_corners(points);
+            const auto n = static_cast<std::size_t>(parts);
+            for (std::size_t row = 0; row < n; ++row) {
+                for (std::size_t column = 0; column < n; ++column) {
+                    const std::size_t corner = first + row * (n + 1) + column, opposite = corner + n + 2;
+                    add_triangle(corner, corner + 1, opposite);
+                    add_triangle(corner, opposite, opposite - 1);
+                }
             }
-        }
-    });
+        });
 }
 
 void Casters::add_rounds(const Scene& scene, const Style& style, double step) {

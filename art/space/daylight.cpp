@@ -86,15 +86,12 @@ void Daylight::build(int threads, const std::function<void()>& watch) {
     }
     for (float& weight : sky_weights_) weight /= sum;
     for (const glm::vec3& towards : sun) sun_.emplace_back(towards, casters_.low(), casters_.high(), side_);
-    make_heights();
+    const std::vector<DepthMap*> maps = make_heights();
     on_threads(threads, [&] {
-        for_each_index(sky_.size() + sun_.size(), [&](std::size_t i) {
+        for_each_index(maps.size(), [&](std::size_t i) {
             if (watch) watch();
-            if (i < sky_.size()) {
-                (coarse_ ? *coarse_ : casters_).draw(sky_[i]);
-            } else {
-                casters_.draw(sun_[i - sky_.size()]);
-            }
+            const bool is_of_sky = shines_sky() && i < sky_.size();
+            (is_of_sky && coarse_ ? *coarse_ : casters_).draw(*maps[i]);
         });
     });
     Parts open_ground{.sky = 1};
@@ -105,28 +102,31 @@ void Daylight::build(int threads, const std::function<void()>& watch) {
     find_open_ground();
 }
 
-void Daylight::make_heights() {
+/// Provides the memory of the maps that are looked up: none of a sun or a sky that does not shine. Returns them.
+std::vector<DepthMap*> Daylight::make_heights() {
+    std::vector<DepthMap*> maps;
+    if (shines_sky())
+        std::transform(sky_.begin(), sky_.end(), std::back_inserter(maps), [](DepthMap& map) { return &map; });
+    if (shines_sun())
+        std::transform(sun_.begin(), sun_.end(), std::back_inserter(maps), [](DepthMap& map) { return &map; });
     std::size_t count = 0;
-    for (const std::vector<DepthMap>* const maps : {&sky_, &sun_}) {
-        for (const DepthMap& map : *maps) count += map.squares();
-    }
+    for (const DepthMap* const map : maps) count += map->squares();
     heights_ = LargeArray<std::uint16_t>(count);
     std::size_t first = 0;
-    for (std::vector<DepthMap>* const maps : {&sky_, &sun_}) {
-        for (DepthMap& map : *maps) {
-            map.heights = heights_.part(first, map.squares());
-            first += map.squares();
-        }
+    for (DepthMap* const map : maps) {
+        map->heights = heights_.part(first, map->squares());
+        first += map->squares();
     }
+    return maps;
 }
 
 void Daylight::add_sky(LitPlaces& places) const {
-    if (light_.sun == 1) return;
+    if (!shines_sky()) return;
     for (std::size_t i = 0; i < sky_.size(); ++i) sky_[i].shine(sky_weights_[i], places);
 }
 
 void Daylight::add_sun(LitPlaces& places) const {
-    if (light_.sun == 0) return;
+    if (!shines_sun()) return;
     for (const DepthMap& map : sun_) map.shine(1.0F / static_cast<float>(sun_.size()), places);
 }
 
@@ -185,6 +185,7 @@ std::vector<float> Daylight::sky_on_ground(std::span<const glm::vec3> points) co
 
 std::vector<float> Daylight::sun_on_ground(std::span<const glm::vec3> points) const {
     std::vector<float> result(points.size(), open_sun_);
+    if (!shines_sun()) return result;
     LitPlaces places;
     std::vector<std::size_t> dark;
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -224,6 +225,8 @@ bool Daylight::is_tile(int column, int row) const {
 }
 
 void Daylight::find_open_ground() {
+    may_be_dark_.clear();
+    if (!shines_sun()) return;
     const DepthMap& map = sun_.front();
     columns_ = map.width / tile_side + 1 + 2 * tiles_around();
     may_be_dark_.assign(std::size_t(columns_) * std::size_t(map.rows / tile_side + 1 + 2 * tiles_around()), 0);

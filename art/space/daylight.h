@@ -24,7 +24,8 @@ namespace sikku {
 /// (see Scene), y up; the ground is level, at the height of the lowest point of the scene.
 ///
 /// The maps have about the resolution of the picture, those of the sky half of it: for drawings of 512 to 2,048
-/// pixels at most 64 of 0.5 MB and 40 of 2 MB, a quarter for smaller and four times as much for larger ones.
+/// pixels at most 64 of 0.5 MB and 40 of 2 MB, a quarter for smaller and four times as much for larger ones. A sun or
+/// a sky that does not shine has none.
 ///
 /// Cost: each direction draws all of the scene once, see Casters, for the sky with curved surfaces divided half as
 /// finely. It is looked up in 2 ns for each place, if places are lit together that are near each other, so that they
@@ -57,7 +58,9 @@ public:
     float ground() const { return casters_.ground(); }
 
 private:
-    void make_heights();
+    bool shines_sky() const { return light_.sun < 1; }
+    bool shines_sun() const { return light_.sun > 0; }
+    std::vector<DepthMap*> make_heights();
     void find_open_ground();
     void find_shadow(const DepthMap& map);
     int tiles_around() const;

@@ -78,18 +78,25 @@ glm::vec3 compressed(const glm::vec3& colour) {
     return glm::min(result + 0.12F * beyond, glm::vec3(1.0F));
 }
 
-const std::array<float, 256>& linear_values() {
-    static const std::array<float, 256> values = [] {
-        std::array<float, 256> result{};
+/// From 0 to 255, and one more.
+const std::array<float, 257>& linear_values() {
+    static const std::array<float, 257> values = [] {
+        std::array<float, 257> result{};
         for (std::size_t i = 0; i < result.size(); ++i) result[i] = to_linear(static_cast<float>(i));
         return result;
     }();
     return values;
 }
 
-glm::vec3 linear(Colour colour) {
+/// Of a colour from 0 to 255.
+glm::vec3 linear(const glm::vec3& colour) {
     const auto& values = linear_values();
-    return {values[colour.red], values[colour.green], values[colour.blue]};
+    const auto channel = [&](float value) {
+        value = value > 0 ? std::min(value, 255.0F) : 0.0F;
+        const auto below = static_cast<std::size_t>(value);
+        return glm::mix(values[below], values[below + 1], value - static_cast<float>(below));
+    };
+    return {channel(colour.x), channel(colour.y), channel(colour.z)};
 }
 
 glm::vec3 channels_of(Colour colour) {
@@ -98,24 +105,10 @@ glm::vec3 channels_of(Colour colour) {
 
 // --- samples ---------------------------------------------------------------------------------------------------
 
-/// A direction in 30 bits, 10 for each coordinate.
-std::uint32_t packed(const glm::vec3& normal) {
-    const auto coded = [](float value) { return static_cast<std::uint32_t>(static_cast<int>(value * 511 + 512.5F)); };
-    return coded(normal.x) << 20 | coded(normal.y) << 10 | coded(normal.z);
-}
-
-/// About as long as it was.
-glm::vec3 unpacked(std::uint32_t bits) {
-    const auto decoded = [&](int shift) { return static_cast<float>(static_cast<int>(bits >> shift & 0x3ff) - 512); };
-    return glm::vec3(decoded(20), decoded(10), decoded(0)) * (1 / 511.0F);
-}
-
-constexpr std::uint32_t thin_bit = 1U << 30;
-
+/// The surface nearest to the eye.
 struct Sample {
     float depth = -std::numeric_limits<float>::infinity();
-    Colour colour;
-    std::uint32_t normal = 0;  ///< packed(), and thin_bit
+    std::uint32_t facet = 0;  ///< of the band
     bool is_covered() const { return depth > -std::numeric_limits<float>::max(); }
 };
 
@@ -131,65 +124,105 @@ struct Material {
     bool is_thin = false;  ///< a polygon that lets light through, like a leaf
 };
 
+/// What a triangle, a flat polygon or a ball looks like: its normal and colour at each place.
+struct Facet {
+    glm::dvec2 at;                       ///< place of a corner, or the middle of a ball, in samples
+    glm::vec2 to_b{0.0F}, to_c{0.0F};    ///< how near a place is to the other corners, by its distance from the first
+    std::array<glm::vec3, 3> normals{};  ///< at the corner, and by how much the other two differ
+    std::array<glm::vec3, 3> colours{};  ///< likewise, from 0 to 255
+    float radius = 0;                    ///< of a ball, in samples, or 0
+    Material material;
+
+    /// The share of the corner b in x and that of c in y.
+    glm::vec2 shares(const glm::dvec2& place) const {
+        const glm::vec2 away(place - at);
+        const float b = std::clamp(away.x * to_b.x + away.y * to_b.y, 0.0F, 1.0F);
+        return {b, std::clamp(away.x * to_c.x + away.y * to_c.y, 0.0F, 1.0F - b)};
+    }
+    static glm::vec3 mixed(const std::array<glm::vec3, 3>& values, const glm::vec2& shares) {
+        return values[0] + shares.x * values[1] + shares.y * values[2];
+    }
+};
+
+/// The nearest facets of some rows. Facets are looked at once the rows are complete, and then once for a pixel
+/// instead of for each of its samples.
 class Band : public SampleBand<Sample> {
 public:
     using SampleBand::SampleBand;
+
+    void begin(int top, int rows) {
+        SampleBand::begin(top, rows);
+        facets_.clear();
+    }
+    const Facet& facet(std::uint32_t number) const { return facets_[number]; }
 
     void triangle(const Corner& a, const Corner& b, const Corner& c, const Material& material) {
         const glm::dvec3 ab = b.at - a.at, ac = c.at - a.at;
         const double area = ab.x * ac.y - ab.y * ac.x;
         if (!(std::fabs(area) > 1e-12)) return;
-        const glm::dvec3 ab_part = ab / area, ac_part = ac / area;
+        const double slope_x = (ab.z * ac.y - ac.z * ab.y) / area, slope_y = (ac.z * ab.x - ab.z * ac.x) / area;
+        const auto farthest = static_cast<float>(std::min({a.at.z, b.at.z, c.at.z}));
+        const auto nearest = static_cast<float>(std::max({a.at.z, b.at.z, c.at.z}));
+        const std::uint32_t own = next();
+        bool is_seen = false;
         each_run(a.at, b.at, c.at, [&](int y, Sample* row, int begin, int stop) {
-            const double dy = y + 0.5 - a.at.y;
+            const double start = a.at.z + (y + 0.5 - a.at.y) * slope_y + (0.5 - a.at.x) * slope_x;
             for (int x = begin; x < stop; ++x) {
-                const double dx = x + 0.5 - a.at.x;
-                const double p = std::clamp(dx * ac_part.y - dy * ac_part.x, 0.0, 1.0);
-                const double q = std::clamp(dy * ab_part.x - dx * ab_part.y, 0.0, 1.0 - p);
-                const auto depth = static_cast<float>(a.at.z + p * ab.z + q * ac.z);
+                const float depth = std::clamp(static_cast<float>(start + x * slope_x), farthest, nearest);
                 if (!(depth > row[x].depth)) continue;
-                const auto s = static_cast<float>(p), t = static_cast<float>(q);
-                row[x] = {depth, coded(a.colour + s * (b.colour - a.colour) + t * (c.colour - a.colour), material),
-                          packed_normal(a.normal + s * (b.normal - a.normal) + t * (c.normal - a.normal), material)};
+                row[x] = {depth, own};
+                is_seen = true;
             }
         });
+        if (!is_seen) return;
+        facets_.push_back({.at = glm::dvec2(a.at),
+                           .to_b = glm::vec2(glm::dvec2(ac.y, -ac.x) / area),
+                           .to_c = glm::vec2(glm::dvec2(-ab.y, ab.x) / area),
+                           .normals = {a.normal, b.normal - a.normal, c.normal - a.normal},
+                           .colours = {a.colour, b.colour - a.colour, c.colour - a.colour},
+                           .material = material});
     }
 
     /// A flat polygon that may cross itself. @param seen  its normal on the page
     void polygon(std::span<const glm::dvec3> outline, const glm::dvec3& seen, const Corner& like,
                  const Material& material) {
-        const Colour colour = coded(like.colour, material);
-        const std::uint32_t normal = packed_normal(like.normal, material);
+        const std::uint32_t own = next();
         each_of_outline(outline, seen, [&](Sample& sample, float depth) {
-            if (depth > sample.depth) sample = {depth, colour, normal};
+            if (depth > sample.depth) sample = {depth, own};
         });
+        facets_.push_back(
+            {.at = glm::dvec2(like.at), .normals = {like.normal}, .colours = {like.colour}, .material = material});
     }
 
-    /// @param surface  returns the normal in the scene, and the depth, of an outward direction on the page
-    template <class Surface>
+    /// @param depth  returns the depth of an outward direction on the page
+    template <class Depth>
     void sphere(const glm::dvec3& centre, double radius, const glm::vec3& colour, const Material& material,
-                Surface&& surface) {
+                Depth&& depth) {
+        const std::uint32_t own = next();
+        bool is_seen = false;
         each_of_ball(centre, radius, [&](Sample& sample, const glm::dvec3& out) {
-            const auto [normal, depth] = surface(out);
-            if (depth > sample.depth) sample = {depth, coded(colour, material), packed_normal(normal, material)};
+            const float height = depth(out);
+            if (!(height > sample.depth)) return;
+            sample = {height, own};
+            is_seen = true;
         });
+        if (!is_seen) return;
+        facets_.push_back({.at = glm::dvec2(centre),
+                           .colours = {colour},
+                           .radius = static_cast<float>(radius),
+                           .material = material});
     }
 
 private:
-    static Colour coded(const glm::vec3& colour, const Material& material) {
-        const auto channel = [](float value) {
-            return static_cast<std::uint8_t>(std::clamp(value, 0.0F, 255.0F) + 0.5F);
-        };
-        return {channel(colour.x), channel(colour.y), channel(colour.z), material.alpha};
-    }
-    static std::uint32_t packed_normal(const glm::vec3& normal, const Material& material) {
-        return packed(normal) | (material.is_thin ? thin_bit : 0);
-    }
+    std::uint32_t next() const { return static_cast<std::uint32_t>(facets_.size()); }
+
+    std::vector<Facet> facets_;  ///< seen, at least for a while
 };
 
-constexpr int most_block = 2;     // pixels, each way, that are lit together …
-constexpr double fine_dpi = 200;  // … from this resolution on
-constexpr int tile_width = 32;    // pixels; a multiple of the blocks
+constexpr int most_block = 2;           // pixels, each way, that are lit together …
+constexpr double fine_dpi = 200;        // … from this resolution on …
+constexpr double fine_drawing = 2'048;  // … and in drawings of more pixels, which are finer than the maps
+constexpr int tile_width = 32;          // pixels; a multiple of the blocks
 
 /// Samples of a block of pixels that lie on one surface and are lit together.
 struct LitPart {
@@ -206,12 +239,20 @@ struct LitPart {
     bool is_thin = false;
     std::array<Share, most_block * most_block> shares{};
 
-    bool takes(const Sample& sample, const glm::vec3& its_normal) const {
-        constexpr float near = 3 * samples, alike = 0.85F;
+    /// @param alike  least cosine of the angle to the normal
+    bool takes(bool thin, float its_depth, const glm::vec3& its_normal, float alike) const {
+        constexpr float near = 3 * samples;
         const float cosine = glm::dot(its_normal, normal);  // times the length of the sum
-        return is_thin == ((sample.normal & thin_bit) != 0) && std::fabs(sample.depth - depth) < near && cosine > 0 &&
+        return is_thin == thin && std::fabs(its_depth - depth) < near && cosine > 0 &&
                cosine * cosine > alike * alike * glm::dot(normal, normal);
     }
+};
+
+/// The samples of a pixel in which a facet is seen.
+struct SeenFacet {
+    std::uint32_t facet;
+    int count = 0, x = 0, y = 0;  ///< sums of columns and rows, from the first of the pixel
+    float depth = 0;              ///< sum
 };
 
 /// A pseudorandom number from 0 to 1, evenly distributed.
@@ -224,11 +265,13 @@ float scattered(std::uint32_t number) {
 class LitRaster final : public SceneRendering<Band> {
 public:
     LitRaster(const Scene& scene, const Print& print)
-        : SceneRendering(scene, print, collar),
+        : SceneRendering(scene, print, collar, {.deviation = fine_deviation(print), .is_measured = true}),
           step_(print.placement.step),
-          block_(print.dpi < fine_dpi ? 1 : most_block),
+          block_(print.dpi < fine_dpi && pixels(scene, print) <= fine_drawing ? 1 : most_block),
+          linear_ground_(linear(channels_of(ground_))),
           daylight_(scene, print.style, print.placement.step, pixels(scene, print)) {
         find_bearers();
+        level_ground_ = level_ground();
     }
 
     int channels() const override { return ground_.alpha < 255 ? 4 : 3; }
@@ -275,16 +318,16 @@ private:
 
     void draw_sphere(Band& band, const glm::dvec3& centre, double radius, const glm::vec3& colour,
                      const Material& material) const {
+        if (!style_.camera.distance) {
+            return band.sphere(centre, radius, colour, material,
+                               [&](const glm::dvec3& seen) { return static_cast<float>(centre.z + seen.z); });
+        }
         const glm::dvec3 middle = stage_.point(centre);
+        const double reach = glm::distance(middle, stage_.point(centre + glm::dvec3(radius, 0, 0)));
         band.sphere(centre, radius, colour, material, [&](const glm::dvec3& seen) {
+            // The depth of that place of the ball in perspective.
             const glm::dvec3 normal = glm::normalize(stage_.direction_back(seen));
-            double depth = centre.z + seen.z;
-            if (style_.camera.distance) {
-                // The depth of that place of the ball in perspective.
-                const glm::dvec3 rim = stage_.point(centre + glm::dvec3(radius, 0, 0));
-                depth = stage_.place(glm::vec3(middle + normal * glm::distance(middle, rim))).z;
-            }
-            return std::pair(glm::vec3(normal), static_cast<float>(depth));
+            return static_cast<float>(stage_.place(glm::vec3(middle + normal * reach)).z);
         });
     }
 
@@ -487,15 +530,22 @@ private:
 
     class GroundRows;
 
-    /// Pixels that are lit together, so that neighbours look up the same parts of the maps.
+    /// Some pixels of which what lies on one surface is lit together.
+    struct Block {
+        int left = 0, top = 0, right = 0, bottom = 0;  ///< within the tile
+        std::size_t first = 0, end = 0;                ///< its parts
+    };
+
+    /// Blocks that are lit together, so that neighbours look up the same parts of the maps.
     struct Tile {
-        int left = 0, top = 0, width = 0, rows = 0;  ///< pixels, from the first row of the band
-        int across = 0;                              ///< blocks in a row
-        std::vector<LitPart> parts;                  ///< by blocks
-        std::vector<std::size_t> first_parts;        ///< of each block, and the end
-        std::vector<int> bare;                       ///< samples of each pixel that show the ground
+        int left = 0, width = 0, rows = 0;  ///< pixels, from the first row of the band
+        std::vector<Block> blocks;
+        std::vector<LitPart> parts;  ///< by blocks
+        std::vector<int> bare;       ///< samples of each pixel that show the ground
         LitPlaces places;
         std::vector<Daylight::OnSurface> lights;  ///< of the parts
+        int& bare_at(int x, int y) { return bare[std::size_t(y * width + x)]; }
+        int bare_at(int x, int y) const { return bare[std::size_t(y * width + x)]; }
     };
 
     void resolve(const Band& band, int channels, std::vector<std::uint8_t>& pixels) const override {
@@ -507,7 +557,6 @@ private:
             tile.left = left;
             tile.width = std::min(tile_width, width - left);
             tile.rows = rows;
-            tile.across = (tile.width + block_ - 1) / block_;
             collect(band, tile);
             light(tile, ground);
             write(tile, ground, channels, pixels);
@@ -516,18 +565,19 @@ private:
 
     void collect(const Band& band, Tile& tile) const {
         tile.parts.clear();
-        tile.first_parts.clear();
-        tile.bare.assign(std::size_t(tile.width) * std::size_t(tile.rows), 0);
-        const int blocks = tile.across * ((tile.rows + block_ - 1) / block_);
-        for (std::size_t block = 0; block < std::size_t(blocks); ++block) {
-            const std::size_t first = tile.parts.size();
-            tile.first_parts.push_back(first);
-            each_pixel(tile, block, [&](std::size_t pixel, int x, int y) {
-                tile.bare[std::size_t(y * tile.width + x)] =
-                    collect(band, tile.left + x, y, pixel, first, tile.parts);
-            });
+        tile.blocks.clear();
+        tile.bare.resize(std::size_t(tile.width) * std::size_t(tile.rows));
+        for (int top = 0; top < tile.rows; top += block_) {
+            for (int left = 0; left < tile.width; left += block_) {
+                Block block{left, top, std::min(left + block_, tile.width), std::min(top + block_, tile.rows),
+                            tile.parts.size()};
+                each_pixel(block, [&](std::size_t pixel, int x, int y) {
+                    tile.bare_at(x, y) = collect(band, tile.left + x, y, pixel, block.first, tile.parts);
+                });
+                block.end = tile.parts.size();
+                tile.blocks.push_back(block);
+            }
         }
-        tile.first_parts.push_back(tile.parts.size());
     }
 
     void light(Tile& tile, GroundRows& ground) const {
@@ -541,24 +591,23 @@ private:
         ground.light(tile);
     }
 
-    /// The pixels of a block, within the tile.
+    /// The pixels of a block, with their places in the tile.
     template <class Visit>
-    void each_pixel(const Tile& tile, std::size_t block, Visit&& visit) const {
-        const int left = static_cast<int>(block) % tile.across * block_;
-        const int top = static_cast<int>(block) / tile.across * block_;
-        const int wide = std::min(block_, tile.width - left), high = std::min(block_, tile.rows - top);
-        for (int i = 0; i < wide * high; ++i) visit(std::size_t(i), left + i % wide, top + i / wide);
+    static void each_pixel(const Block& block, Visit&& visit) {
+        std::size_t pixel = 0;
+        for (int y = block.top; y < block.bottom; ++y) {
+            for (int x = block.left; x < block.right; ++x) visit(pixel++, x, y);
+        }
     }
 
     void write(const Tile& tile, const GroundRows& ground, int channels, std::vector<std::uint8_t>& pixels) const {
-        for (std::size_t block = 0; block + 1 < tile.first_parts.size(); ++block) {
-            const std::size_t first = tile.first_parts[block], count = tile.first_parts[block + 1] - first;
-            const auto parts = std::span(tile.parts).subspan(first, count);
-            const auto lights = std::span(tile.lights).subspan(first, count);
-            each_pixel(tile, block, [&](std::size_t pixel, int x, int y) {
+        for (std::size_t i = 0; i < tile.blocks.size(); ++i) {
+            const Block& block = tile.blocks[i];
+            const auto parts = std::span(tile.parts).subspan(block.first, block.end - block.first);
+            const auto lights = std::span(tile.lights).subspan(block.first, block.end - block.first);
+            each_pixel(block, [&](std::size_t pixel, int x, int y) {
                 write(
-                    parts, lights, pixel, tile.bare[std::size_t(y * tile.width + x)],
-                    [&] { return ground.at(tile, block, x, y); }, channels,
+                    parts, lights, pixel, tile.bare_at(x, y), [&] { return ground.at(i, x, y); }, channels,
                     pixels.data() + (std::size_t(y) * std::size_t(size_.width) + std::size_t(tile.left + x)) *
                                         std::size_t(channels));
             });
@@ -567,43 +616,83 @@ private:
 
     /// Gathers the samples of a pixel of a block; returns the number of those that show the ground.
     /// @param first  first part of the block
-    static int collect(const Band& band, int column, int line, std::size_t pixel, std::size_t first,
-                       std::vector<LitPart>& parts) {
+    int collect(const Band& band, int column, int line, std::size_t pixel, std::size_t first,
+                std::vector<LitPart>& parts) const {
         if (!band.is_touched(column * samples, line * samples)) return samples * samples;
+        std::array<SeenFacet, samples * samples> seen;
+        std::size_t count = 0;
         int bare = 0;
-        std::uint32_t last_bits = 0;
-        glm::vec3 normal = unpacked(last_bits);
-        for (int y = line * samples; y < (line + 1) * samples; ++y) {
-            const auto row = band.row(y);
-            for (int x = column * samples; x < (column + 1) * samples; ++x) {
-                const Sample& sample = row[std::size_t(x)];
+        for (int y = 0; y < samples; ++y) {
+            const Sample* const row = band.row(line * samples + y).data() + column * samples;
+            for (int x = 0; x < samples; ++x) {
+                const Sample& sample = row[x];
                 if (!sample.is_covered()) {
                     ++bare;
                     continue;
                 }
-                if (sample.normal != last_bits) normal = unpacked(last_bits = sample.normal);
-                auto found = std::find_if(parts.begin() + std::ptrdiff_t(first), parts.end(),
-                                          [&](const LitPart& part) { return part.takes(sample, normal); });
-                if (found == parts.end()) {
-                    parts.push_back({.depth = sample.depth, .is_thin = (sample.normal & thin_bit) != 0});
-                    found = parts.end() - 1;
+                std::size_t i = count;
+                while (i > 0 && seen[i - 1].facet != sample.facet) --i;
+                if (i == 0) {
+                    seen[count] = {.facet = sample.facet};
+                    i = ++count;
                 }
-                found->at += glm::dvec3(x + 0.5, band.top() + y + 0.5, double{sample.depth});
-                found->normal += normal;
-                ++found->count;
-                LitPart::Share& share = found->shares[pixel];
-                share.colour += linear(sample.colour);
-                share.alpha += sample.colour.alpha;
-                ++share.count;
+                SeenFacet& facet = seen[i - 1];
+                ++facet.count;
+                facet.x += x;
+                facet.y += y;
+                facet.depth += sample.depth;
             }
         }
+        const glm::dvec2 corner(column * samples, band.top() + line * samples);
+        for (const SeenFacet& facet : std::span(seen).first(count)) {
+            add(band.facet(facet.facet), facet, corner, pixel, first, parts);
+        }
         return bare;
+    }
+
+    /// @param corner  the upper left one of the pixel
+    void add(const Facet& facet, const SeenFacet& seen, const glm::dvec2& corner, std::size_t pixel,
+             std::size_t first, std::vector<LitPart>& parts) const {
+        const auto count = static_cast<float>(seen.count);
+        const glm::dvec2 place = corner + 0.5 + glm::dvec2(seen.x, seen.y) / double(seen.count);
+        const float depth = seen.depth / count;
+        const glm::vec2 shares = facet.shares(place);
+        const glm::vec3 normal =
+            facet.radius > 0 ? normal_of_ball(facet, place) : Facet::mixed(facet.normals, shares);
+        // Blocks would show on narrow stems if all that is round were lit together.
+        const float alike = block_ == 1 ? 0.85F : 0.985F;
+        auto found = std::find_if(parts.begin() + std::ptrdiff_t(first), parts.end(), [&](const LitPart& part) {
+            return part.takes(facet.material.is_thin, depth, normal, alike);
+        });
+        if (found == parts.end()) {
+            parts.push_back({.depth = depth, .is_thin = facet.material.is_thin});
+            found = parts.end() - 1;
+        }
+        found->at += glm::dvec3(place, double{depth}) * double(seen.count);
+        found->normal += normal * count;
+        found->count += seen.count;
+        LitPart::Share& share = found->shares[pixel];
+        share.colour += linear(Facet::mixed(facet.colours, shares)) * count;
+        share.alpha += facet.material.alpha * seen.count;
+        share.count += seen.count;
+    }
+
+    glm::vec3 normal_of_ball(const Facet& ball, const glm::dvec2& place) const {
+        const glm::dvec2 out = place - ball.at;
+        const double height = double{ball.radius} * double{ball.radius} - glm::dot(out, out);
+        return glm::vec3(glm::normalize(stage_.direction_back({out, std::sqrt(std::max(0.0, height))})));
     }
 
     /// @param ground  returns the ground at the pixel
     template <class Ground>
     static void write(std::span<const LitPart> parts, std::span<const Daylight::OnSurface> lights, std::size_t pixel,
                       int bare, Ground&& ground, int channels, std::uint8_t* out) {
+        if (parts.empty()) {
+            const auto [colour, alpha] = ground();
+            for (std::size_t i = 0; i < 3; ++i) out[channels == 1 ? 0 : i] = alpha == 0 ? std::uint8_t{0} : colour[i];
+            if (channels == 4) out[3] = static_cast<std::uint8_t>(alpha);
+            return;
+        }
         // Sums over the samples, of colours with their alpha.
         std::array<std::uint32_t, 3> sums{};
         std::uint32_t alphas = 0;
@@ -635,26 +724,42 @@ private:
     }
 
     /// The first pixel of a block that shows the ground, also through what is transparent.
-    std::optional<glm::ivec2> first_bare(const Tile& tile, std::size_t block) const {
-        std::optional<glm::ivec2> result;
-        each_pixel(tile, block, [&](std::size_t pixel, int x, int y) {
-            if (result) return;
-            bool is_bare = tile.bare[std::size_t(y * tile.width + x)] > 0;
-            for (std::size_t i = tile.first_parts[block]; i < tile.first_parts[block + 1]; ++i) {
-                const LitPart::Share& share = tile.parts[i].shares[pixel];
-                is_bare = is_bare || share.alpha < 255 * share.count;
+    static std::optional<glm::ivec2> first_bare(const Tile& tile, const Block& block) {
+        std::size_t pixel = 0;
+        for (int y = block.top; y < block.bottom; ++y) {
+            for (int x = block.left; x < block.right; ++x, ++pixel) {
+                if (tile.bare_at(x, y) > 0) return glm::ivec2(x, y);
+                for (std::size_t i = block.first; i < block.end; ++i) {
+                    const LitPart::Share& share = tile.parts[i].shares[pixel];
+                    if (share.alpha < 255 * share.count) return glm::ivec2(x, y);
+                }
             }
-            if (is_bare) result = glm::ivec2(x, y);
-        });
-        return result;
+        }
+        return std::nullopt;
     }
 
     /// The place of the ground at a pixel, if the eye sees one there.
     std::optional<glm::vec3> ground_place(int x, int y) const {
+        if (style_.camera.distance) {
+            const auto place = ground_seen_at(x, y);
+            return place ? std::optional(glm::vec3(*place)) : std::nullopt;
+        }
+        if (!level_ground_) return std::nullopt;
+        const auto& [first, right, below] = *level_ground_;
+        return glm::vec3(first + double(x) * right + double(y) * below);
+    }
+    std::optional<glm::dvec3> ground_seen_at(int x, int y) const {
         const glm::dvec3 point = stage_.point({(x + 0.5) * samples, (y + 0.5) * samples, 0.0});
         const glm::dvec3 eye = stage_.to_eye(glm::vec3(point));
         if (!(eye.y > 1e-3)) return std::nullopt;
-        return glm::vec3(point - eye * ((point.y - double{daylight_.ground()}) / eye.y));
+        return point - eye * ((point.y - double{daylight_.ground()}) / eye.y);
+    }
+    /// Without perspective, the places at pixel 0 0 and from one pixel to the next on the right and below.
+    std::optional<std::array<glm::dvec3, 3>> level_ground() const {
+        constexpr int apart = 1024;
+        const auto first = ground_seen_at(0, 0), right = ground_seen_at(apart, 0), below = ground_seen_at(0, apart);
+        if (!first || !right || !below) return std::nullopt;
+        return std::array{*first, (*right - *first) / double{apart}, (*below - *first) / double{apart}};
     }
 
     struct Shown {
@@ -667,8 +772,8 @@ private:
         if (!(dark > 0)) return {{ground_.red, ground_.green, ground_.blue}, ground_.alpha};
         // Where the ground is transparent, the shadow is a dark veil.
         const float opaque = static_cast<float>(ground_.alpha) / 255;
-        const auto alpha = static_cast<std::uint32_t>(std::lround(255 * (1 - (1 - opaque) * (1 - dark))));
-        const glm::vec3 colour = linear(ground_) * share * opaque;
+        const auto alpha = static_cast<std::uint32_t>(255 * (1 - (1 - opaque) * (1 - dark)) + 0.5F);
+        const glm::vec3 colour = linear_ground_ * share * opaque;
         return {{from_linear(colour.x), from_linear(colour.y), from_linear(colour.z)}, alpha};
     }
 
@@ -682,33 +787,37 @@ private:
 
         /// Lights the blocks of a tile that show the ground, one place for each.
         void light(const Tile& tile) {
-            sun_.assign(tile.first_parts.size() - 1, std::nullopt);
+            sun_.assign(tile.blocks.size(), std::nullopt);
             if (!raster_.style_.light.has_ground) return;
+            columns_ = squares(tile.left, tile.width);
+            rows_ = squares(0, tile.rows);
             std::vector<std::size_t> blocks;
             std::vector<glm::vec3> places;
-            for (std::size_t block = 0; block < sun_.size(); ++block) {
-                const auto pixel = raster_.first_bare(tile, block);
+            for (std::size_t i = 0; i < sun_.size(); ++i) {
+                const auto pixel = first_bare(tile, tile.blocks[i]);
                 if (!pixel) continue;
-                const auto place = raster_.ground_place(tile.left + pixel->x, top_ + pixel->y);
+                const std::optional<glm::vec3> place = raster_.ground_place(tile.left + pixel->x, top_ + pixel->y);
                 if (!place) continue;
-                blocks.push_back(block);
+                blocks.push_back(i);
                 places.push_back(*place);
-                raster_.each_pixel(tile, block, [&](std::size_t, int x, int y) { want(tile.left + x, y); });
+                each_pixel(tile.blocks[i], [&](std::size_t, int x, int y) {
+                    want(columns_[std::size_t(x)].number, rows_[std::size_t(y)].number);
+                });
             }
             const std::vector<float> suns = raster_.daylight_.sun_on_ground(places);
             for (std::size_t i = 0; i < blocks.size(); ++i) sun_[blocks[i]] = suns[i];
             light_corners();
         }
 
-        /// The ground at a pixel of the tile that was lit last.
-        Shown at(const Tile& tile, std::size_t block, int x, int y) const {
+        /// The ground at a pixel of the tile that was lit last. @param block  number of its block
+        Shown at(std::size_t block, int x, int y) const {
             if (!sun_[block]) return raster_.ground_in(glm::vec3(1.0F));
-            const int column = (tile.left + x) / square_, row = y / square_;
-            const float dx = static_cast<float>(tile.left + x - column * square_) / static_cast<float>(square_),
-                        dy = static_cast<float>(y - row * square_) / static_cast<float>(square_);
-            const float above = glm::mix(corner(column, row), corner(column + 1, row), dx);
-            const float below = glm::mix(corner(column, row + 1), corner(column + 1, row + 1), dx);
-            return raster_.ground_in(raster_.daylight_.on_ground(glm::mix(above, below, dy), *sun_[block]));
+            const Square &across = columns_[std::size_t(x)], &down = rows_[std::size_t(y)];
+            const Corner* const above = corners_.data() + number(across.number, down.number);
+            const Corner* const below = above + number(0, 1);
+            const float sky = glm::mix(glm::mix(above[0].sky, above[1].sky, across.share),
+                                       glm::mix(below[0].sky, below[1].sky, across.share), down.share);
+            return raster_.ground_in(raster_.daylight_.on_ground(sky, *sun_[block]));
         }
 
     private:
@@ -716,20 +825,33 @@ private:
             bool is_wanted = false;
             float sky = 1;
         };
+        /// Where a row or column of pixels lies.
+        struct Square {
+            int number = 0;
+            float share = 0;  ///< from the beginning of the square to its end
+        };
+        std::vector<Square> squares(int first, int count) const {
+            std::vector<Square> result;
+            for (int i = first; i < first + count; ++i) {
+                result.push_back({i / square_, static_cast<float>(i % square_) / static_cast<float>(square_)});
+            }
+            return result;
+        }
         std::size_t number(int column, int row) const {
             return std::size_t(row) * (std::size_t(raster_.size_.width / square_) + 2) + std::size_t(column);
         }
-        float corner(int column, int row) const { return corners_[number(column, row)].sky; }
-        /// Notes that the corners around a pixel are needed.
-        void want(int x, int y) {
-            const int column = x / square_, row = y / square_;
+        /// Notes that the corners of a square are needed.
+        void want(int column, int row) {
+            if (column == wanted_square_.x && row == wanted_square_.y) return;
+            wanted_square_ = {column, row};
             if (const std::size_t size = number(0, row + 2); corners_.size() < size) corners_.resize(size);
             for (const int below : {row, row + 1}) {
                 for (const int right : {column, column + 1}) {
                     Corner& corner = corners_[number(right, below)];
                     if (corner.is_wanted) continue;
                     corner.is_wanted = true;
-                    const auto place = raster_.ground_place(right * square_, top_ + below * square_);
+                    const std::optional<glm::vec3> place =
+                        raster_.ground_place(right * square_, top_ + below * square_);
                     if (!place) continue;
                     wanted_.push_back(&corner - corners_.data());
                     wanted_places_.push_back(*place);
@@ -747,6 +869,8 @@ private:
         int top_;
         int square_;                             ///< side in pixels; divides the height of every band
         std::vector<std::optional<float>> sun_;  ///< on the blocks of the tile
+        std::vector<Square> columns_, rows_;     ///< by pixels of the tile
+        glm::ivec2 wanted_square_{-1, -1};       ///< the last one
         std::vector<Corner> corners_;            ///< of squares, by rows
         std::vector<std::ptrdiff_t> wanted_;     ///< corners to be lit …
         std::vector<glm::vec3> wanted_places_;   ///< … and where they are
@@ -754,6 +878,8 @@ private:
 
     double step_;
     int block_;  ///< pixels, each way, that are lit together
+    glm::vec3 linear_ground_;
+    std::optional<std::array<glm::dvec3, 3>> level_ground_;
     mutable Daylight daylight_;
     mutable std::once_flag is_lit_;
     std::vector<std::uint32_t> bearers_;  ///< by segment

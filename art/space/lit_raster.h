@@ -13,10 +13,12 @@ namespace sikku {
 /// blend along a line. Leaves are thin, so that light shines through; each has a slightly different tone, darker at
 /// the base. The ground, which is level and as low as the scene, shows only the shadow.
 ///
-/// All samples of a pixel, or from 200 dpi on of 2 by 2 pixels, that lie on one surface are lit together. The shadow
-/// of the sky on the ground, which has no edges, is computed eight times as far apart. Memory: for each thread and
-/// one more, a band with 12 bytes for each of 16 samples a pixel; Daylight; and 24 bytes a segment. `print` is
-/// placed; it and `scene` must outlive the result. @throws std::runtime_error if a side is over 500,000 pixels
+/// The samples hold the nearest surface, whose normal and colour are computed once for a pixel. All samples of a
+/// pixel, or of 2 by 2 pixels from 200 dpi on and in drawings of more than 2,048 pixels, that lie on one surface with
+/// nearly one normal are lit together. The shadow of the sky on the ground, which has no edges, is computed eight
+/// times as far apart. Memory: for each thread and one more, a band with 8 bytes for each of 16 samples a pixel and
+/// 112 for each triangle that is seen in it; Daylight; and 24 bytes a segment. `print` is placed; it and `scene` must
+/// outlive the result. @throws std::runtime_error if a side is over 500,000 pixels
 std::unique_ptr<Rendering> make_lit_raster(const Scene& scene, const Print& print);
 
 }  // namespace sikku

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "art/raster/bands.h"
+#include "art/space/large_array.h"
 #include "art/space/outline_runs.h"
 #include "art/space/scene_bands.h"
 #include "art/space/stage.h"
@@ -32,8 +33,10 @@ public:
     SampleBand(int width, int rows)
         : width_(width * SceneBands::samples),
           stretches_(std::size_t((width_ + stretch - 1) / stretch)),
-          samples_(std::size_t(width_) * std::size_t(rows) * SceneBands::samples),
-          touched_(stretches_ * std::size_t(rows), 0) {}
+          size_(std::size_t(width_) * std::size_t(rows) * SceneBands::samples),
+          memory_(size_),
+          samples_(memory_.part(0, size_)),
+          touched_(stretches_ * std::size_t(rows), 1) {}
 
     /// @param top  row of samples
     void begin(int top, int rows) {
@@ -50,7 +53,7 @@ public:
     int rows() const { return rows_; }
     int width() const { return width_; }
     std::span<const Sample> row(int y) const {
-        return std::span(samples_).subspan(std::size_t(y) * std::size_t(width_), std::size_t(width_));
+        return samples_.subspan(std::size_t(y) * std::size_t(width_), std::size_t(width_));
     }
 
 protected:
@@ -139,7 +142,9 @@ private:
     int width_;
     int top_ = 0, rows_ = 0;
     std::size_t stretches_;  ///< of a row
-    std::vector<Sample> samples_;
+    std::size_t size_;
+    LargeArray<Sample> memory_;  ///< in large pages, as a surface lies in many rows
+    std::span<Sample> samples_;
     std::vector<char> touched_;  ///< stretches of rows of pixels
 };
 
@@ -167,8 +172,9 @@ public:
     }
 
 protected:
-    SceneRendering(const Scene& scene, const Print& print, double widening)
-        : own_(scene.surfaces().empty() ? Scene() : tessellated(scene, fineness(print))),
+    /// @param fineness  of surfaces, in turtle steps
+    SceneRendering(const Scene& scene, const Print& print, double widening, const Fineness& fineness)
+        : own_(scene.surfaces().empty() ? Scene() : tessellated(scene, fineness)),
           scene_(scene.surfaces().empty() ? scene : own_),
           style_(print.style),
           size_(solid_picture_size(print)),
@@ -190,6 +196,9 @@ protected:
     virtual void draw_polygon(Band& band, const ScenePolygon& polygon) const = 0;
     virtual void draw_sphere(Band& band, const SceneSphere& sphere) const = 0;
     virtual void resolve(const Band& band, int channels, std::vector<std::uint8_t>& pixels) const = 0;
+
+    /// A deviation of a fifth of a pixel, in turtle steps.
+    static double fine_deviation(const Print& print) { return 0.2 * 25.4 / print.dpi / print.placement.step; }
 
     /// Triangles of a polygon. @param own  receives them if they are not stored
     const Triangulation& triangles_of(const ScenePolygon& polygon, std::span<const glm::vec3> vertices,
@@ -216,10 +225,6 @@ private:
         std::vector<std::uint8_t> pixels;
     };
 
-    /// A deviation of a fifth of a pixel.
-    static Fineness fineness(const Print& print) {
-        return {.deviation = 0.2 * 25.4 / print.dpi / print.placement.step};
-    }
     std::unique_ptr<Workplace> workplace() const {
         return std::make_unique<Workplace>(Workplace{Band(size_.width, bands_.height()), {}});
     }

@@ -145,7 +145,10 @@ private:
 
 class SolidRaster final : public SceneRendering<Band> {
 public:
-    SolidRaster(const Scene& scene, const Print& print) : SceneRendering(scene, print, 1.0) { note_channels(); }
+    SolidRaster(const Scene& scene, const Print& print)
+        : SceneRendering(scene, print, 1.0, {.deviation = fine_deviation(print)}) {
+        note_channels();
+    }
 
     int channels() const override { return channels_; }
 

@@ -120,6 +120,52 @@ Grid grid_of(const Patch& patch, int n, double near) {
     return grid;
 }
 
+/// Distance of a point from the plane of a triangle, or from one of its corners if that is no plane.
+double distance_from_plane(const glm::dvec3& point, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    const glm::dvec3 normal = glm::cross(b - a, c - a);
+    const double length = glm::length(normal);
+    const double sides = glm::length(b - a) * glm::length(c - a);
+    return length > 1e-9 * sides ? std::fabs(glm::dot(point - a, normal)) / length : 0.0;
+}
+
+double distance_from_line(const glm::dvec3& point, const glm::dvec3& a, const glm::dvec3& b) {
+    const glm::dvec3 along = b - a;
+    const double length = glm::length(along);
+    return length > 0 ? glm::length(glm::cross(point - a, along)) / length : glm::distance(point, a);
+}
+
+/// How far a patch is from n by n quadrilaterals, at their middles and at those of their sides; along its rim from
+/// the sides. Each quadrilateral may be divided along either diagonal.
+double deviation_of(const Patch& patch, int n) {
+    const auto at = [&](double row, double column) { return sum(patch, weights(row / n), weights(column / n)); };
+    const auto corners = [&](int row) {
+        std::vector<glm::dvec3> result;
+        for (int k = 0; k <= n; ++k) result.push_back(at(row, k));
+        return result;
+    };
+    double most = 0;
+    std::vector<glm::dvec3> above = corners(0);
+    for (int i = 0; i < n; ++i) {
+        const std::vector<glm::dvec3> below = corners(i + 1);
+        for (int k = 0; k < n; ++k) {
+            const auto left = static_cast<std::size_t>(k), right = left + 1;
+            const std::array<glm::dvec3, 4> round = {above[left], above[right], below[right], below[left]};
+            const std::array<glm::dvec3, 4> middles = {at(i, k + 0.5), at(i + 0.5, k + 1), at(i + 1, k + 0.5),
+                                                       at(i + 0.5, k)};
+            const std::array<bool, 4> is_rim = {i == 0, k + 1 == n, i + 1 == n, k == 0};
+            const glm::dvec3 middle = at(i + 0.5, k + 0.5);
+            for (std::size_t side = 0; side < 4; ++side) {
+                const glm::dvec3 &a = round[side], &b = round[(side + 1) % 4], &c = round[(side + 2) % 4];
+                most = std::max({most, distance_from_plane(middle, a, b, c),
+                                 is_rim[side] ? distance_from_line(middles[side], a, b)
+                                              : distance_from_plane(middles[side], a, b, c)});
+            }
+        }
+        above = below;
+    }
+    return most;
+}
+
 /// Indices of the points along the four edges.
 std::vector<std::size_t> rim(int n) {
     std::vector<std::size_t> result;
@@ -211,6 +257,9 @@ public:
         double wanted = coarser_ > 1 ? 1 : least_of_curved;
         const double deviation = std::max(fineness_.deviation, fineness_.share * shape.extent * scale) * coarser_;
         if (deviation > 0) wanted = std::max(wanted, std::sqrt(shape.bend * scale / deviation));
+        if (fineness_.is_measured && deviation > 0) {
+            wanted = measured(*surface.surface, deviation / scale, divisions_from(wanted));
+        }
         if (fineness_.side > 0) wanted = std::max(wanted, shape.extent * scale / (fineness_.side * coarser_));
         return divisions_from(wanted);
     }
@@ -227,8 +276,26 @@ public:
     }
 
 private:
+    /// The fewest parts that do not deviate more. @param most  parts that a bound of the deviation requires
+    int measured(const Surface& surface, double deviation, int most) const {
+        constexpr double safety = 1.2;  // between the places where it is measured
+        for (const int n : divisions) {
+            if (n >= most) break;
+            if (n < least_of_curved && coarser_ == 1) continue;
+            const auto [found, fresh] = deviations_.try_emplace({&surface, n});
+            if (fresh) {
+                for (const Patch& patch : surface.patches) {
+                    found->second = std::max(found->second, safety * deviation_of(patch, n));
+                }
+            }
+            if (found->second <= deviation) return n;
+        }
+        return most;
+    }
+
     Fineness fineness_;
-    double coarser_ = 1;  ///< a factor of the fineness
+    double coarser_ = 1;                                                   ///< a factor of the fineness
+    mutable std::map<std::pair<const Surface*, int>, double> deviations_;  ///< measured
     std::map<const Surface*, Shape> shapes_;
     std::map<std::pair<const Surface*, int>, std::vector<Grid>> grids_;
 };

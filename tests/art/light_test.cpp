@@ -8,10 +8,12 @@
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sikku::light_test {
@@ -166,6 +168,27 @@ TEST(LitRaster, AShadowLiesOnTheGround) {
     EXPECT_EQ(picture.at(0, 255)[0], picture.at(0, 255)[2]) << "open ground keeps its colour";
 }
 
+TEST(Daylight, WithoutASunOrWithoutASkyTheOtherShinesAlone) {
+    const Print print = lit_print(64, {});
+    const Scene scene = scene_of(table, print.style);
+    const auto light_of = [&](const char* light, const glm::vec3& point) {
+        Style style = print.style;
+        style.light = *parse_light(light);
+        Daylight daylight(scene, style, 1, 1000);
+        daylight.build(2, {});
+        return std::pair(on_surface(daylight, point, {0, 1, 0}, true).front.y,
+                         on_ground(daylight, {point.x, daylight.ground(), point.z}).y);
+    };
+    for (const glm::vec3& point : {glm::vec3(5, 5, 5), glm::vec3(5, 10, 5), glm::vec3(25, 2, 3)}) {
+        const auto [sun, sun_below] = light_of("20 60 1", point);
+        const auto [sky, sky_below] = light_of("sky", point);
+        const auto [both, both_below] = light_of("20 60 0.5", point);
+        EXPECT_NEAR(both, (sun + sky) / 2, 1e-3);
+        EXPECT_GE(both_below, std::min(sun_below, sky_below) - 1e-3);
+        EXPECT_LE(both_below, std::max(sun_below, sky_below) + 1e-3);
+    }
+}
+
 TEST(LitRaster, ThePictureDependsNeitherOnThreadsNorOnBands) {
     const Print print = lit_print(256, *parse_light("sun"));
     const Scene scene = scene_of(table, print.style);
@@ -179,6 +202,30 @@ TEST(LitRaster, ThePictureDependsNeitherOnThreadsNorOnBands) {
         });
     }
     EXPECT_EQ(parts, one.bytes);
+}
+
+TEST(LitRaster, ALeafHasOneToneWhereverItsPixelsAreTaken) {
+    // A level leaf in the open, in one colour: each whole pixel of it is equal but for the resolution of the maps.
+    Print print = lit_print(200, *parse_light("0 90 0.8"));
+    print.style.camera.elevation = 70;
+    print.style.light.has_ground = false;
+    const Scene scene = scene_of("&(90)f(10)-(90)f(30)+(90){f(60)+(90)f(60)+(90)f(60)+(90)f(60)}", print.style);
+    const Picture coarse = picture_of(scene, print);
+    print.dpi = 254;
+    print.page = {20, 20, 0};
+    print.placement.to_page = {{0.1, 0}, {0, -0.1}, {10, 10}};
+    Picture fine{200, 3, {}};
+    make_solid_raster(scene, print)->render(2, [&](int, int, std::span<const std::uint8_t> rows) {
+        fine.bytes.insert(fine.bytes.end(), rows.begin(), rows.end());
+    });
+    ASSERT_EQ(fine.bytes.size(), coarse.bytes.size());
+    int covered = 0;
+    for (std::size_t i = 0; i < fine.bytes.size(); ++i) {
+        if (coarse.bytes[i] == 255) continue;
+        ++covered;
+        EXPECT_NEAR(coarse.bytes[i], fine.bytes[i], 3) << "blocks of 2 by 2 pixels, and pixels alone, at " << i;
+    }
+    EXPECT_GT(covered, 3000);
 }
 
 TEST(LitRaster, WithoutAGroundThereIsNoShadowBesideTheDrawing) {

@@ -8,6 +8,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <array>
+#include <cmath>
 #include <string>
 
 namespace sikku::tessellation_test {
@@ -84,6 +86,56 @@ TEST(Tessellation, CornersLieOnTheCornersOfTheNet) {
     EXPECT_GT(fine, 2 * coarse);
     EXPECT_LE(fine, 8 * coarse);
     EXPECT_LE(tessellated(scene_of(dome), {.deviation = 1e-9}).polygons().size(), 48u * 48);
+}
+
+/// Height of the dome, whose points lie evenly in x and y.
+double dome_height(double x, double y) {
+    const auto weights = [](double t) {
+        const double s = 1 - t;
+        return std::array{s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t};
+    };
+    const double net[4][4] = {{0, 1, 1, 0}, {1, 3, 3, 1}, {1, 3, 3, 1}, {0, 1, 1, 0}};
+    const auto rows = weights(y / 3), columns = weights(x / 3);
+    double z = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        for (std::size_t k = 0; k < 4; ++k) z += net[i][k] * rows[i] * columns[k];
+    }
+    return z;
+}
+
+TEST(Tessellation, AMeasuredDeviationHoldsEverywhere) {
+    for (const double deviation : {0.1, 0.01, 0.002}) {
+        const Scene measured = tessellated(scene_of(dome), {.deviation = deviation, .is_measured = true});
+        const Scene bounded = tessellated(scene_of(dome), {.deviation = deviation});
+        EXPECT_LE(measured.polygons().size(), bounded.polygons().size()) << deviation;
+        for (const ScenePolygon& polygon : measured.polygons()) {
+            const auto vertices = measured.vertices(polygon);
+            ASSERT_EQ(vertices.size(), 4U);
+            // Points of the triangles on both sides of either diagonal.
+            for (std::size_t first = 0; first < 4; ++first) {
+                const auto corner = [&](std::size_t i) { return measured.at(vertices[(first + i) % 4]); };
+                for (int p = 0; p <= 6; ++p) {
+                    for (int q = 0; p + q <= 6; ++q) {
+                        const glm::dvec3 at =
+                            corner(0) + (corner(1) - corner(0)) * (p / 6.0) + (corner(2) - corner(0)) * (q / 6.0);
+                        const double z = dome_height(at.x, at.y), step = 1e-4;
+                        const double slope =
+                            std::hypot(dome_height(at.x + step, at.y) - z, dome_height(at.x, at.y + step) - z) / step;
+                        EXPECT_LT(std::fabs(at.z - z) / std::hypot(1.0, slope), 1.1 * deviation);
+                    }
+                }
+            }
+        }
+    }
+}
+
+TEST(Tessellation, PointsThatLieUnevenlyInAPlaneNeedNoMeasuredDivisions) {
+    // A rectangle: its inner points only move along it, which a bound by differences of points cannot know.
+    const std::string uneven =
+        "patch p:\n0 0 0, 2 0 0, 2.5 0 0, 3 0 0\n0 2 0, 2 2 0, 2.5 2 0, 3 2 0\n"
+        "0 2.5 0, 2 2.5 0, 2.5 2.5 0, 3 2.5 0\n0 3 0, 2 3 0, 2.5 3 0, 3 3 0\naxiom: ~p\n";
+    EXPECT_EQ(tessellated(scene_of(uneven), {.deviation = 0.001, .is_measured = true}).polygons().size(), 9U);
+    EXPECT_GT(tessellated(scene_of(uneven), {.deviation = 0.001}).polygons().size(), 500U);
 }
 
 TEST(Tessellation, NormalsAreThoseOfTheSurface) {
