@@ -7,6 +7,7 @@
 #include "engine/geometry/polygon_classes.h"
 #include "engine/geometry/turtle.h"
 #include "engine/tiling/tile_anchors.h"
+#include "engine/tiling/tile_repeats.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -187,6 +188,45 @@ public:
     }
 
     void expect(double polygons) { expected_ = polygons; }
+
+    TileMark mark() const { return {tiles_.tiles(), tiles_.polygons}; }
+
+    std::optional<TilePart> tiles_since(const TileMark& mark, const Cyclotomic::Number& origin) const {
+        if (tiles_.tiles() - mark.tiles != tiles_.polygons - mark.polygons) return std::nullopt;
+        TilePart part;
+        std::unordered_map<std::uint32_t, std::uint32_t> numbers;
+        for (std::uint32_t tile = mark.tiles; tile < tiles_.tiles(); ++tile) {
+            for (const std::uint32_t point : tiles_.corners(tile)) {
+                const auto fresh = static_cast<std::uint32_t>(part.points.size());
+                const auto [found, is_new] = numbers.try_emplace(point, fresh);
+                part.corner.push_back(found->second);
+                if (!is_new) continue;
+                Cyclotomic::Number& at = part.points.emplace_back(plane_.coordinates(point));
+                for (std::size_t i = 0; i < at.size(); ++i) at[i] -= origin[i];
+            }
+            part.in_class.push_back(tiles_.in_class[tile]);
+            part.colour.push_back(tiles_.colour[tile]);
+        }
+        return part;
+    }
+
+    void add(const TilePart& part, const Cyclotomic::Number& origin) {
+        part_points_.clear();
+        for (const Cyclotomic::Number& point : part.points) {
+            Cyclotomic::Number at = origin;
+            for (std::size_t i = 0; i < at.size(); ++i) at[i] += point[i];
+            part_points_.push_back(plane_.point(at, {}));
+        }
+        auto corner = part.corner.begin();
+        for (std::size_t tile = 0; tile < part.in_class.size(); ++tile) {
+            ++tiles_.polygons;
+            corners_.clear();
+            for (std::size_t left = tiles_.classes[part.in_class[tile]].vectors.size(); left > 0; --left) {
+                corners_.push_back(part_points_[*corner++]);
+            }
+            keep_tile(part.in_class[tile], part.colour[tile]);
+        }
+    }
 
 private:
     /// An outline as it was drawn, and those of its vertices that are corners.
@@ -369,7 +409,7 @@ private:
     double most_corners_;
     double expected_ = 0;  // number of polygons
     const Monitor& monitor_;
-    Points outline_, corners_, vectors_, key_, outline_points_;
+    Points outline_, corners_, vectors_, key_, outline_points_, part_points_;
     std::unordered_map<Points, Outline, Hash> outlines_;  // by its vertices relative to the first one
     bool has_spike_ = false;
     std::uint32_t spike_ = 0;
@@ -393,6 +433,15 @@ void TileCollector::add(std::span<const std::int64_t> coordinates, std::span<con
 }
 void TileCollector::add(std::span<const std::uint32_t> points, std::int32_t colour, bool is_closed) {
     implementation_->add(points, colour, is_closed);
+}
+TileMark TileCollector::mark() const {
+    return implementation_->mark();
+}
+std::optional<TilePart> TileCollector::tiles_since(const TileMark& mark, const Cyclotomic::Number& origin) const {
+    return implementation_->tiles_since(mark, origin);
+}
+void TileCollector::add(const TilePart& part, const Cyclotomic::Number& origin) {
+    implementation_->add(part, origin);
 }
 
 namespace {
@@ -485,7 +534,10 @@ TileSet collect_tiles(const Grammar& grammar, TilePlane& plane, const TileLimits
     const auto turtle = Turtle::tracing(grammar, reader, reader, false);
     const auto watch = [&monitor](std::uint64_t symbols) { monitor.advance(symbols); };
     monitor.expect(expected_symbols(grammar, true));
-    derive(grammar, *turtle, DerivationOptions::within(limits.nodes, watch));
+    DerivationOptions derivation = DerivationOptions::within(limits.nodes, watch);
+    TileRepeats repeats(grammar, *turtle, collector, monitor);
+    if (plane.is_exact()) derivation.pruner = &repeats;
+    derive(grammar, *turtle, derivation);
     return tiles;
 }
 

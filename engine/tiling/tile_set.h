@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -98,6 +99,19 @@ struct TileLimits {
     double bytes = 0;  ///< of memory; 0: half of what is available
 };
 
+/// Valid tiles on an exact plane, relative to a place of its lattice.
+struct TilePart {
+    std::vector<Cyclotomic::Number> points;  ///< their corners, in the order in which these occur first
+    std::vector<std::uint32_t> corner;       ///< of all tiles, as index into `points`
+    std::vector<std::uint32_t> in_class;
+    std::vector<std::int32_t> colour;
+};
+
+/// The state of a set of tiles to which more are added.
+struct TileMark {
+    std::uint32_t tiles = 0, polygons = 0;
+};
+
 /// Adds polygons one by one to a set of tiles.
 class TileCollector {
 public:
@@ -110,6 +124,12 @@ public:
     /// The same on an exact plane, in coordinates of its lattice, and faster.
     void add(std::span<const std::int64_t> coordinates, std::span<const glm::dvec2> places, std::int32_t colour,
              bool is_closed);
+
+    TileMark mark() const;
+    /// The tiles that were added since, relative to a place; nullopt if there were faults. Only on an exact plane.
+    std::optional<TilePart> tiles_since(const TileMark& mark, const Cyclotomic::Number& origin) const;
+    /// Adds the tiles of a part at another place, as if they were drawn there. @throws BudgetError
+    void add(const TilePart& part, const Cyclotomic::Number& origin);
 
 private:
     class Implementation;
