@@ -14,6 +14,7 @@ TileRepeats::TileRepeats(const Grammar& grammar, Turtle& turtle, TileCollector& 
     const std::int64_t count = std::min({levels.count(), kept_levels(symbols_), most_levels});
     for (const SymbolInfo& symbol : grammar.symbols()) {
         polygons_.push_back(symbol.command.action == Action::polygon_end ? 1.0 : 0.0);
+        lengths_.push_back(1.0);
     }
     for (std::int64_t level = 1; level <= count; ++level) {
         const std::size_t below = polygons_.size() - symbols_;
@@ -21,17 +22,24 @@ TileRepeats::TileRepeats(const Grammar& grammar, Turtle& turtle, TileCollector& 
         for (Symbol symbol = 0; symbol < symbols_; ++symbol) {
             const Word* successor = table.successor(symbol);
             double polygons = successor ? 0.0 : polygons_[below + symbol];
+            double length = successor ? 0.0 : lengths_[below + symbol];
             if (successor) {
-                for (const Symbol child : *successor) polygons += polygons_[below + child];
+                for (const Symbol child : *successor) {
+                    polygons += polygons_[below + child];
+                    length += lengths_[below + child];
+                }
             }
             polygons_.push_back(polygons);
+            lengths_.push_back(length);
         }
     }
 }
 
 bool TileRepeats::is_worthwhile(Symbol symbol, std::int64_t level) const {
     const std::size_t at = static_cast<std::size_t>(level) * symbols_ + symbol;
-    return at < polygons_.size() && polygons_[at] >= least_tiles && polygons_[at] <= most_tiles;
+    if (at >= polygons_.size()) return false;
+    if (polygons_[at] > 0) return polygons_[at] >= least_tiles && polygons_[at] <= most_tiles;
+    return lengths_[at] >= least_moves && lengths_[at] <= most_moves;
 }
 
 bool TileRepeats::passes_over(Symbol symbol, std::int64_t level) {
@@ -50,7 +58,7 @@ bool TileRepeats::passes_over(Symbol symbol, std::int64_t level) {
     }
     const Part& part = found->second;
     if (!part.is_usable) return false;
-    collector_.add(part.tiles, here->coordinates);
+    if (part.tiles) collector_.add_part(*part.tiles, here->coordinates);
     TurtleStand there = part.end;
     for (std::size_t i = 0; i < there.coordinates.size(); ++i) there.coordinates[i] += here->coordinates[i];
     there.position += here->position;
@@ -72,10 +80,12 @@ void TileRepeats::end() {
     const auto here = turtle_.stand();
     const std::int64_t lowest = turtle_.lowest_depth();
     if (!here || here->depth != start_.depth || lowest < start_.depth) return;
-    auto tiles = collector_.tiles_since(mark_, start_.coordinates);
-    if (!tiles) return;
-    kept_ += tiles->in_class.size();
-    part.tiles = std::move(*tiles);
+    const TileMark mark = collector_.mark();
+    if (mark.polygons > mark_.polygons) {
+        part.tiles = collector_.keep_part(mark_, start_.coordinates);
+        if (!part.tiles) return;
+        kept_ += mark.tiles - mark_.tiles;
+    }
     part.end = *here;
     for (std::size_t i = 0; i < here->coordinates.size(); ++i) part.end.coordinates[i] -= start_.coordinates[i];
     part.end.position -= start_.position;
