@@ -618,13 +618,16 @@ void PlotPlan::arrange() {
     into_ = nullptr;
     report_.returns = options_.home.has_value();
     if (options_.home) report_.before.travelled += step * glm::distance(last, drawn_at(*options_.home));
-    if (is_worse(tally({.step = step}, report_.pens), report_.before, options_.speeds)) {
+    const PlotTally arranged = tally({.step = step}, report_.pens);
+    const bool stays = is_worse(arranged, report_.before, options_.speeds);
+    if (stays) {
         report_.duplicates = 0;
         for (const auto& layer : layers_) layer->strokes = layer->as_drawn;
     }
     tally_as_drawn();
     for (const auto& layer : layers_) layer->as_drawn = {};
-    report_.after = tally(course(), report_.pens);
+    const bool is_known = !stays && options_.split <= 0 && options_.resume <= 0 && !options_.refill;
+    report_.after = is_known ? arranged : tally(course(), report_.pens);
     if (options_.resume > 0 && !layers_.empty()) {
         std::vector<PenTally> pens;
         const double whole = tally({.step = step}, pens).drawn;
@@ -678,6 +681,29 @@ void PlotPlan::tally_as_drawn() {
     exchange();
 }
 
+/// Visits the pen-up movements and the pieces of a course, in order.
+template <class Travel, class Visit>
+void PlotPlan::follow(const PlotCourse& course, const Travel& add_travel, const Visit& visit) const {
+    glm::dvec2 at = drawn_at(options_.start);
+    const auto travel = [&](glm::dvec2 to) {
+        if (to != at) add_travel(PlotTravel{at, to});
+        at = to;
+    };
+    const PlotLayer* pen = nullptr;
+    follow_course(layers_, course, options_.monitor, [&](const PlotPiece& piece) {
+        if (pen && pen != &piece.layer && options_.park) travel(drawn_at(*options_.park));
+        pen = &piece.layer;
+        if (piece.dip) {
+            travel(drawn_at(*piece.dip));
+        } else {
+            travel(piece.layer.graph.point(piece.ends.front()));
+            at = piece.layer.graph.point(piece.ends.back() ^ 1U);
+        }
+        visit(piece);
+    });
+    if (options_.home) travel(drawn_at(*options_.home));
+}
+
 /// Lengths and lifts along a course, as travels() counts them. @param pens  receives the tallies of single pens
 PlotTally PlotPlan::tally(const PlotCourse& course, std::vector<PenTally>& pens) const {
     PlotTally result;
@@ -687,7 +713,10 @@ PlotTally PlotPlan::tally(const PlotCourse& course, std::vector<PenTally>& pens)
                         layer->settings.pause, layer->widths});
     }
     Pulse pulse(options_.monitor);
-    follow_course(layers_, course, options_.monitor, [&](const PlotPiece& piece) {
+    const auto add_travel = [&](const PlotTravel& travel) {
+        result.travelled += course.step * glm::distance(travel.from, travel.to);
+    };
+    follow(course, add_travel, [&](const PlotPiece& piece) {
         PenTally& pen = pens[static_cast<std::size_t>(piece.layer.number - 1)];
         for (const PlotEnd end : piece.ends) {
             pulse();
@@ -698,9 +727,6 @@ PlotTally PlotPlan::tally(const PlotCourse& course, std::vector<PenTally>& pens)
         ++result.lifts;
         ++pen.lifts;
     });
-    for (const PlotTravel& travel : travels(course)) {
-        result.travelled += course.step * glm::distance(travel.from, travel.to);
-    }
     return result;
 }
 
@@ -747,20 +773,8 @@ std::vector<PlotTravel> PlotPlan::travels() const {
 
 std::vector<PlotTravel> PlotPlan::travels(const PlotCourse& course) const {
     std::vector<PlotTravel> list;
-    glm::dvec2 at = drawn_at(options_.start);
-    const auto travel = [&](glm::dvec2 to) {
-        if (to != at) list.push_back({at, to});
-        at = to;
-    };
-    const PlotLayer* pen = nullptr;
-    follow_course(layers_, course, options_.monitor, [&](const PlotPiece& piece) {
-        if (pen && pen != &piece.layer && options_.park) travel(drawn_at(*options_.park));
-        pen = &piece.layer;
-        if (piece.dip) return travel(drawn_at(*piece.dip));
-        travel(piece.layer.graph.point(piece.ends.front()));
-        at = piece.layer.graph.point(piece.ends.back() ^ 1U);
-    });
-    if (options_.home) travel(drawn_at(*options_.home));
+    follow(
+        course, [&](const PlotTravel& travel) { list.push_back(travel); }, [](const PlotPiece&) {});
     return list;
 }
 

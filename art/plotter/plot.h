@@ -52,7 +52,7 @@ std::vector<int> fill_pens(const Style& style);
 /// that continued smoothly (within 10 degrees) still do: a kolam of two lines keeps two lines, and every line its
 /// course. Ends left over at a point are joined at any angle.
 ///
-/// The strokes of a pen are then ordered, and reversed or begun elsewhere, by nearest neighbours and 2-opt over near
+/// The strokes of a pen are then ordered, and reversed or begun elsewhere, by near ends and 2-opt over near
 /// ones, in a bounded number of passes. The result is the same on every run. A pen keeps the strokes of the drawing
 /// if arranged ones would need more lifts or more time, and so does the whole plot: it is never worse than the
 /// drawing.
@@ -123,6 +123,8 @@ private:
     PlotTally tally(const PlotCourse& course, std::vector<PenTally>& pens) const;
     void tally_as_drawn();
     std::vector<PlotTravel> travels(const PlotCourse& course) const;
+    template <class Travel, class Visit>
+    void follow(const PlotCourse& course, const Travel& add_travel, const Visit& visit) const;
 
     const Print& print_;
     PlotOptions options_;

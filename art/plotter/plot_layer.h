@@ -5,6 +5,7 @@
 #include "art/plotter/plot_join.h"
 #include "art/plotter/plot_options.h"
 #include "engine/base/chance.h"
+#include "engine/base/memory.h"
 #include "engine/geometry/path.h"
 
 #include <glm/vec2.hpp>
@@ -39,12 +40,21 @@ inline std::size_t plot_table_size(std::size_t entries) {
     return size;
 }
 
+/// An empty table for so many entries.
+inline std::vector<std::uint32_t> plot_table(std::size_t entries) {
+    std::vector<std::uint32_t> table;
+    table.reserve(plot_table_size(entries));
+    use_large_pages(table);
+    table.resize(plot_table_size(entries), PlotSegment::none);
+    return table;
+}
+
 /// Numbers for points; those less than `tolerance` apart along both axes have the same.
 class PlotNodes {
 public:
     /// @param expected  number of points for which the table need not grow
     explicit PlotNodes(double tolerance, std::size_t expected = 0)
-        : tolerance_(tolerance), table_(plot_table_size(expected), PlotSegment::none) {}
+        : tolerance_(tolerance), table_(plot_table(expected)) {}
 
     /// Prefetches the memory that at() will read: first the place in the table, and later the point there.
     void expect(glm::dvec2 later, glm::dvec2 soon) const {
@@ -116,7 +126,7 @@ private:
 class PlotSegmentSet {
 public:
     PlotSegmentSet(std::vector<PlotSegment>& segments, std::size_t most)
-        : segments_(segments), table_(plot_table_size(most), PlotSegment::none) {}
+        : segments_(segments), table_(plot_table(most)) {}
 
     bool add(const PlotSegment& segment) { return add_or_find(segment).second; }
     /// The end at which the segment is entered, and whether it is new.

@@ -1,6 +1,7 @@
 #include "art/plotter/plot_route.h"
 
 #include "engine/base/chance.h"
+#include "engine/base/memory.h"
 #include "engine/base/threads.h"
 #include "engine/geometry/curve_tree.h"
 
@@ -22,13 +23,21 @@ constexpr std::uint32_t no_end = CurveTree::none;
 constexpr std::size_t most_near = 6;
 constexpr std::size_t most_near_closed = 10;  // each point twice
 constexpr std::size_t few = 1000;             // strokes whose order is searched for longer
+constexpr std::size_t many = 20'000;          // strokes for which only one order is improved
+// Strokes that are improved together, of long routes of either kind:
+constexpr std::size_t part_of_walk = 50'000;
+constexpr std::size_t part_of_chain = 12'500;
 constexpr int most_rounds = 8;
 
 /// For each of many points, the points nearest to it, the nearest first, and then `no_end`.
 class NearLists {
 public:
     NearLists() = default;
-    NearLists(std::size_t points, std::size_t most) : most_(most), near_(points * most, no_end) {}
+    NearLists(std::size_t points, std::size_t most) : most_(most) {
+        near_.reserve(points * most);
+        use_large_pages(near_);
+        near_.resize(points * most, no_end);
+    }
     std::span<const std::uint32_t> of(std::uint32_t point) const {
         return std::span(near_).subspan(point * most_, most_);
     }
@@ -61,12 +70,15 @@ public:
     /// @param points  ends of the strokes, two each
     /// @param start   position of the pen before the first one
     /// @param returns  the pen travels back to its start
-    PlotRoute(std::vector<glm::dvec2> points, std::vector<PlotEnd> order, glm::dvec2 start, bool returns)
+    /// @param longest_part  of a long route, strokes that are improved together
+    PlotRoute(std::vector<glm::dvec2> points, std::vector<PlotEnd> order, glm::dvec2 start, bool returns,
+              std::size_t longest_part = part_of_walk)
         : points_(std::move(points)),
           order_(std::move(order)),
           place_(order_.size()),
           start_(static_cast<PlotEnd>(points_.size())),
-          returns_(returns) {
+          returns_(returns),
+          longest_part_(longest_part) {
         for (std::uint32_t i = 0; i < order_.size(); ++i) place_[order_[i] / 2] = i;
         points_.push_back(start);
     }
@@ -86,16 +98,16 @@ public:
         const std::size_t size = order_.size();
         part_of_.assign(size, 0);
         is_queued_.assign(2 * size + 1, 0);
-        if (size <= longest_part) {
+        if (size <= longest_part_) {
             Part whole(0, 0, size, size);
             settle_all(near, whole, monitor);
             if (size <= few) shake(near, whole, monitor);
             return;
         }
-        for (const std::size_t first : {longest_part, longest_part / 2}) {
+        for (const std::size_t first : {longest_part_, longest_part_ / 2}) {
             std::vector<Part> parts;
             for (std::size_t begin = 0; begin < size;) {
-                const std::size_t end = std::min(begin == 0 ? first : begin + longest_part, size);
+                const std::size_t end = std::min(begin == 0 ? first : begin + longest_part_, size);
                 for (std::size_t i = begin; i < end; ++i)
                     part_of_[order_[i] / 2] = static_cast<std::uint32_t>(parts.size());
                 parts.emplace_back(static_cast<std::uint32_t>(parts.size()), begin, end, size);
@@ -108,7 +120,6 @@ public:
     const std::vector<PlotEnd>& order() const { return order_; }
 
 private:
-    static constexpr std::size_t longest_part = 50'000;
     static constexpr std::uint32_t most_moved = 3;
     static constexpr std::uint64_t most_work = 5000;  // for each stroke
 
@@ -301,6 +312,7 @@ private:
     std::vector<std::uint32_t> place_;  // place of each stroke in the order
     PlotEnd start_;                     // a point, not an end of a stroke
     bool returns_;
+    std::size_t longest_part_;
     std::vector<std::uint32_t> part_of_;  // by stroke
     std::vector<char> is_queued_;         // by end
 };
@@ -392,13 +404,123 @@ std::vector<std::uint32_t> nearest_first(const Entries& entries, CurveTree& tree
     return order;
 }
 
-/// A route that always goes to the nearest stroke.
+/// Strokes joined to chains by travels between their ends.
+class Chains {
+public:
+    /// @param points  ends of the strokes, two each
+    explicit Chains(const std::vector<glm::dvec2>& points)
+        : points_(points), partner_(points.size(), no_end), far_(points.size()), index_(points.size()) {
+        for (PlotEnd end = 0; end < far_.size(); ++end) far_[end] = end ^ 1U;
+    }
+
+    /// Joins the two nearest ends of different chains again and again until there is one chain. Returns the ends at
+    /// which its strokes are entered, from the end of the chain that is nearer to `start`. Ends that are nearer to
+    /// each other than to any others are joined at once; that gives nearly the same chains as trying all pairs in the
+    /// order of their distance. Source: Bentley, Fast algorithms for geometric traveling salesman problems, 1992
+    /// (greedy heuristic). @param near  of all ends
+    std::vector<PlotEnd> join(const NearLists& near, glm::dvec2 start, const Monitor& monitor) {
+        std::vector<PlotEnd> ends(points_.size());
+        std::iota(ends.begin(), ends.end(), 0U);
+        join_near(ends, near, monitor);
+        for (;;) {
+            const std::size_t before = ends.size();
+            std::erase_if(ends, [&](PlotEnd end) { return partner_[end] != no_end; });
+            if (ends.size() <= 2) break;
+            // Only if coordinates are not numbers:
+            if (ends.size() == before) {
+                const auto other = std::find_if(ends.begin(), ends.end(), [&](PlotEnd end) {
+                    return end != ends.front() && end != far_[ends.front()];
+                });
+                link(ends.front(), *other);
+                continue;
+            }
+            std::vector<glm::dvec2> places;
+            for (const PlotEnd end : ends) places.push_back(points_[end]);
+            const CurveTree tree(
+                places, [&](std::uint32_t i) { return std::min(ends[i], far_[ends[i]]); },
+                [](std::uint32_t i) { return i; }, monitor);
+            join_near(ends, find_near<most_near>(tree, monitor), monitor);
+        }
+        return in_order(ends, start, monitor);
+    }
+
+private:
+    /// Joins free ends as far as they are near. @param near  lists of indices of `ends`
+    void join_near(std::span<const PlotEnd> ends, const NearLists& near, const Monitor& monitor) {
+        Pulse pulse(monitor);
+        for (std::uint32_t i = 0; i < ends.size(); ++i) index_[ends[i]] = i;
+        std::vector<std::uint8_t> next(ends.size(), 0);  // those before were joined, or are the end of the same chain
+        const auto nearest = [&](std::uint32_t i) {
+            const auto list = near.of(i);
+            for (; next[i] < list.size() && list[next[i]] != no_end; ++next[i]) {
+                const PlotEnd end = ends[list[next[i]]];
+                if (partner_[end] == no_end && far_[ends[i]] != end) return list[next[i]];
+            }
+            return no_end;
+        };
+        const auto distance = [&](std::uint32_t i, std::uint32_t k) {
+            return glm::distance(points_[ends[i]], points_[ends[k]]);
+        };
+        std::vector<std::uint32_t> way;
+        for (std::uint32_t first = 0; first < ends.size(); ++first) {
+            way.assign(1, first);
+            while (!way.empty()) {
+                pulse();
+                const std::uint32_t here = way.back();
+                const std::uint32_t there = partner_[ends[here]] == no_end ? nearest(here) : no_end;
+                if (there == no_end) {
+                    way.pop_back();
+                    continue;
+                }
+                const std::uint32_t back = nearest(there);
+                // Smaller differences are rounding errors.
+                if (back != no_end && distance(there, back) < (1 - 1e-9) * distance(here, there)) {
+                    way.push_back(there);
+                } else {
+                    // Among ends equally far away, those next to each other then continue the chain.
+                    way.back() = index_[far_[ends[there]]];
+                    link(ends[here], ends[there]);
+                }
+            }
+        }
+    }
+
+    void link(PlotEnd a, PlotEnd b) {
+        partner_[a] = b;
+        partner_[b] = a;
+        const PlotEnd first = far_[a], last = far_[b];
+        far_[first] = last;
+        far_[last] = first;
+    }
+
+    /// @param ends  both ends of the only chain
+    std::vector<PlotEnd> in_order(std::span<const PlotEnd> ends, glm::dvec2 start, const Monitor& monitor) const {
+        std::vector<PlotEnd> order;
+        order.reserve(points_.size() / 2);
+        Pulse pulse(monitor);
+        const bool from_back =
+            glm::distance(start, points_[ends.back()]) < glm::distance(start, points_[ends.front()]);
+        for (PlotEnd end = from_back ? ends.back() : ends.front(); end != no_end; end = partner_[end ^ 1U]) {
+            pulse();
+            order.push_back(end);
+        }
+        return order;
+    }
+
+    const std::vector<glm::dvec2>& points_;
+    std::vector<PlotEnd> partner_;      // of ends: the one that it is joined with, or no_end
+    std::vector<PlotEnd> far_;          // of free ends: the other end of the chain
+    std::vector<std::uint32_t> index_;  // of free ends, among all that are joined at a time
+};
+
+/// Routes to begin with.
 struct Walk {
     std::vector<std::uint32_t> number;  // of strokes, as given
     std::vector<std::uint32_t> begin;   // of strokes: the first segment, if any is closed
     std::vector<glm::dvec2> points;     // ends of strokes, two each
-    std::vector<PlotEnd> order;
-    NearLists near;  // of these points, and of the start
+    std::vector<PlotEnd> order;         // always to the nearest stroke; may be empty if there is a chain
+    std::vector<PlotEnd> chain;         // strokes joined to one chain; empty for few strokes, and if any is closed
+    NearLists near;                     // of these points, and of the start
 };
 
 NearLists near_ends(const std::vector<glm::dvec2>& points, const Monitor& monitor) {
@@ -420,7 +542,10 @@ void add_start(NearLists& near, const std::vector<glm::dvec2>& points, glm::dvec
     for (std::size_t k = 0; k < nearest.size(); ++k) out[k] = nearest[k].second;
 }
 
-Walk walk_to_nearest(const PlotGraph& graph, const PlotStrokes& given, glm::dvec2 start, const Monitor& monitor) {
+bool chain_is_shorter(const PlotGraph& graph, const PlotStrokes& given, std::span<const std::uint32_t> number,
+                      const Monitor& monitor);
+
+Walk first_walk(const PlotGraph& graph, const PlotStrokes& given, glm::dvec2 start, const Monitor& monitor) {
     Walk walk;
     Entries entries(graph, given, monitor);
     {
@@ -431,7 +556,11 @@ Walk walk_to_nearest(const PlotGraph& graph, const PlotStrokes& given, glm::dvec
             },
             monitor);
         walk.near = find_near<most_near>(tree, monitor);
-        walk.order = nearest_first(entries, tree, walk.near, start, monitor);
+        const bool is_long = given.strokes.size() > many;
+        const bool has_chain = given.strokes.size() > few && !entries.has_closed &&
+                               (!is_long || chain_is_shorter(graph, given, entries.number, monitor));
+        if (!has_chain || !is_long) walk.order = nearest_first(entries, tree, walk.near, start, monitor);
+        if (has_chain) walk.chain = Chains(entries.points).join(walk.near, start, monitor);
     }
     walk.number = std::move(entries.number);
     if (!entries.has_closed) {
@@ -453,6 +582,37 @@ Walk walk_to_nearest(const PlotGraph& graph, const PlotStrokes& given, glm::dvec
     }
     add_start(walk.near, walk.points, start);
     return walk;
+}
+
+PlotRoute improved(const Walk& walk, std::vector<PlotEnd> order, std::size_t longest_part, glm::dvec2 start,
+                   bool returns, const Monitor& monitor) {
+    PlotRoute route(walk.points, std::move(order), start, returns, longest_part);
+    route.improve(walk.near, monitor);
+    return route;
+}
+
+/// Compares both kinds of routes in two samples of neighbouring strokes. Where strokes are arranged regularly, always
+/// going to the nearest is better. @param number  of strokes along a curve
+bool chain_is_shorter(const PlotGraph& graph, const PlotStrokes& given, std::span<const std::uint32_t> number,
+                      const Monitor& monitor) {
+    constexpr std::size_t size = many / 2;
+    for (const std::size_t begin : {(number.size() - size) / 3, (number.size() - size) * 2 / 3}) {
+        PlotStrokes sample;
+        for (const std::uint32_t i : number.subspan(begin, size)) {
+            const auto ends = given.ends(given.strokes[i]);
+            sample.strokes.push_back(
+                {static_cast<std::uint32_t>(sample.order.size()), given.strokes[i].count, given.strokes[i].closed});
+            sample.order.insert(sample.order.end(), ends.begin(), ends.end());
+        }
+        const glm::dvec2 start = graph.point(sample.order.front());
+        Walk walk = first_walk(graph, sample, start, monitor);
+        const double chain =
+            improved(walk, std::exchange(walk.chain, {}), part_of_chain, start, false, monitor).length();
+        const double order =
+            improved(walk, std::exchange(walk.order, {}), part_of_walk, start, false, monitor).length();
+        if (chain >= (1 - 1e-9) * order) return false;
+    }
+    return true;
 }
 
 /// Lets each closed stroke begin where the detour between its neighbours in the order is least.
@@ -490,14 +650,20 @@ void choose_beginnings(const PlotGraph& graph, const PlotStrokes& given, const s
 PlotStrokes sort_strokes(const PlotGraph& graph, const PlotStrokes& given, glm::dvec2 start, bool returns,
                          double drawn, const Monitor& monitor) {
     const std::vector<PlotStroke>& strokes = given.strokes;
-    Walk walk = walk_to_nearest(graph, given, start, monitor);
-    PlotRoute best(walk.points, std::move(walk.order), start, returns);
-    best.improve(walk.near, monitor);
+    Walk walk = first_walk(graph, given, start, monitor);
+    const auto improve = [&](std::vector<PlotEnd> order, std::size_t longest_part) {
+        return improved(walk, std::move(order), longest_part, start, returns, monitor);
+    };
+    PlotRoute best = walk.chain.empty() ? improve(std::exchange(walk.order, {}), part_of_walk)
+                                        : improve(std::exchange(walk.chain, {}), part_of_chain);
+    if (!walk.order.empty()) {
+        PlotRoute other = improve(std::exchange(walk.order, {}), part_of_walk);
+        if (other.length() < best.length()) best = std::move(other);
+    }
     if (best.length() > drawn || strokes.size() <= few) {
         std::vector<PlotEnd> order(strokes.size());
         for (std::uint32_t i = 0; i < order.size(); ++i) order[walk.number[i]] = 2 * i;
-        PlotRoute other(walk.points, std::move(order), start, returns);
-        other.improve(walk.near, monitor);
+        PlotRoute other = improve(std::move(order), part_of_walk);
         if (other.length() < best.length()) best = std::move(other);
     }
     choose_beginnings(graph, given, best.order(), start, returns, walk, monitor);

@@ -6,7 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <memory>
 #include <string>
+
+#ifdef __linux__
+#include <sys/mman.h>
+#endif
 
 namespace sikku {
 
@@ -19,6 +24,16 @@ std::uint64_t available_memory() {
         if (key == "MemAvailable:") return kilobytes * 1024;
     }
     return std::uint64_t{1} << 32;
+}
+
+void use_large_pages([[maybe_unused]] void* begin, [[maybe_unused]] std::size_t bytes) {
+#ifdef MADV_HUGEPAGE
+    constexpr std::size_t large = std::size_t{1} << 21;
+    if (bytes < 2 * large) return;
+    // Whole large pages within the memory.
+    if (!std::align(large, large, begin, bytes)) return;
+    madvise(begin, bytes / large * large, MADV_HUGEPAGE);
+#endif
 }
 
 std::optional<double> parse_bytes(std::string_view text) {

@@ -88,18 +88,23 @@ public:
     template <class Owner, class Rank>
     CurveTree(std::span<const glm::dvec2> points, const Owner& owner, const Rank& rank, const Monitor& monitor = {})
         : ids_(order_along_curve(points, monitor)), places_(points.size()), is_there_(points.size(), 1) {
-        entries_.reserve(points.size());
+        size_ = points.size();
+        entries_.resize((size_ + leaf_size - 1) / leaf_size);
         for (std::uint32_t place = 0; place < ids_.size(); ++place) {
             const std::uint32_t id = ids_[place];
-            entries_.push_back({points[id], owner(id), rank(id)});
+            Leaf& leaf = entries_[place / leaf_size];
+            leaf.x[place % leaf_size] = points[id].x;
+            leaf.y[place % leaf_size] = points[id].y;
+            leaf.owner[place % leaf_size] = owner(id);
+            leaf.rank[place % leaf_size] = rank(id);
             places_[id] = place;
         }
         while (leaf_size * leaves_ < points.size()) leaves_ *= 2;
         boxes_.resize(2 * leaves_);
         counts_.resize(2 * leaves_);
-        for (std::size_t place = 0; place < entries_.size(); ++place) {
+        for (std::size_t place = 0; place < size_; ++place) {
             const std::size_t leaf = leaves_ + place / leaf_size;
-            boxes_[leaf].add(entries_[place].point);
+            boxes_[leaf].add(points[ids_[place]]);
             ++counts_[leaf];
         }
         for (std::size_t node = leaves_; node-- > 1;) {
@@ -112,7 +117,7 @@ public:
         }
     }
 
-    std::size_t size() const { return entries_.size(); }
+    std::size_t size() const { return size_; }
     bool is_there(std::uint32_t id) const { return is_there_[id] != 0; }
 
     /// Removes a point that is in the tree. Cost: O(1) on average.
@@ -126,7 +131,9 @@ public:
     std::uint32_t nearest(glm::dvec2 centre, std::uint32_t beside) const {
         Group<1> group;
         group.size = 1;
-        group.entries[0] = {centre, none, 0};
+        group.points.x[0] = centre.x;
+        group.points.y[0] = centre.y;
+        group.points.owner[0] = none;
         group.box.add(centre);
         search(group, leaves_ + places_[beside] / leaf_size);
         return group.found[0][0] == none ? none : ids_[group.found[0][0]];
@@ -141,7 +148,7 @@ public:
             Group<count> group;
             const std::size_t leaf = leaves_ + first / leaf_size;
             group.size = std::min(leaf_size, end - first);
-            std::copy_n(entries_.begin() + static_cast<std::ptrdiff_t>(first), group.size, group.entries.begin());
+            group.points = entries_[first / leaf_size];
             group.box = boxes_[leaf];
             search(group, leaf);
             for (std::size_t i = 0; i < group.size; ++i) {
@@ -156,9 +163,9 @@ public:
 private:
     static constexpr std::size_t leaf_size = 8;
 
-    struct Entry {
-        glm::dvec2 point{0.0};
-        std::uint32_t owner = none, rank = 0;
+    struct Leaf {
+        std::array<double, leaf_size> x{}, y{};
+        std::array<std::uint32_t, leaf_size> owner{}, rank{};
     };
     /// Points near each other whose neighbours are searched at once.
     template <std::size_t count>
@@ -166,7 +173,7 @@ private:
         std::size_t size = 0;
         Box box;
         double reach = std::numeric_limits<double>::infinity();  // square of the largest distance of a near point
-        std::array<Entry, leaf_size> entries;
+        Leaf points;
         std::array<std::array<double, count>, leaf_size> squares;       // of distances
         std::array<std::array<std::uint32_t, count>, leaf_size> found;  // places
 
@@ -216,26 +223,33 @@ private:
     template <std::size_t count>
     void compare(Group<count>& group, std::size_t leaf) const {
         const std::size_t begin = (leaf - leaves_) * leaf_size;
-        const std::size_t end = std::min(begin + leaf_size, entries_.size());
+        const std::size_t size = std::min(leaf_size, size_ - begin);
+        const Leaf& others = entries_[leaf - leaves_];
         constexpr bool all_there = count > 1;
         double reach = 0;
         for (std::size_t i = 0; i < group.size; ++i) {
-            const Entry& own = group.entries[i];
+            const glm::dvec2 own(group.points.x[i], group.points.y[i]);
+            const std::uint32_t owner = group.points.owner[i];
             auto& squares = group.squares[i];
             auto& found = group.found[i];
-            if (square_from(own.point, boxes_[leaf]) > squares[count - 1]) {
+            if (square_from(own, boxes_[leaf]) > squares[count - 1]) {
                 reach = std::max(reach, squares[count - 1]);
                 continue;
             }
-            for (std::size_t at = begin; at < end; ++at) {
-                const Entry& other = entries_[at];
-                const glm::dvec2 gap = other.point - own.point;
-                const double square = gap.x * gap.x + gap.y * gap.y;
-                if (square > squares[count - 1] || other.owner == own.owner) continue;
+            std::array<double, leaf_size> to_others;
+            for (std::size_t k = 0; k < leaf_size; ++k) {
+                const double x = others.x[k] - own.x, y = others.y[k] - own.y;
+                to_others[k] = x * x + y * y;
+            }
+            for (std::size_t other = 0; other < size; ++other) {
+                const std::size_t at = begin + other;
+                const double square = to_others[other];
+                if (square > squares[count - 1] || others.owner[other] == owner) continue;
                 if (!all_there && is_there_[ids_[at]] == 0) continue;
                 const auto before = [&](std::size_t k) {
                     if (square != squares[k]) return square < squares[k];
-                    return found[k] == none || other.rank < entries_[found[k]].rank;
+                    return found[k] == none ||
+                           others.rank[other] < entries_[found[k] / leaf_size].rank[found[k] % leaf_size];
                 };
                 if (!before(count - 1)) continue;
                 std::size_t k = count - 1;
@@ -255,9 +269,10 @@ private:
     std::vector<std::uint32_t> ids_;     // by place
     std::vector<std::uint32_t> places_;  // by index
     std::vector<char> is_there_;         // by index
-    std::vector<Entry> entries_;         // by place
-    std::vector<Box> boxes_;             // children of n are 2 n and 2 n + 1; leaves from leaves_ on
-    std::vector<std::uint8_t> counts_;   // of leaves: their points; of others: their children that have points
+    std::size_t size_ = 0;
+    std::vector<Leaf> entries_;         // by place
+    std::vector<Box> boxes_;            // children of n are 2 n and 2 n + 1; leaves from leaves_ on
+    std::vector<std::uint8_t> counts_;  // of leaves: their points; of others: their children that have points
 };
 
 }  // namespace sikku

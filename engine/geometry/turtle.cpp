@@ -194,6 +194,24 @@ public:
 
     Survey survey() const override { return survey_; }
 
+    std::optional<TurtleStand> stand() const override {
+        const auto coordinates = coordinates_of(state_.place);
+        if (coordinates.empty() || !polygons_.empty() || edges_.in_use()) return std::nullopt;
+        TurtleStand stand{{}, state_.place.heading, state_.pen, stack_.depth(), position_};
+        std::copy(coordinates.begin(), coordinates.end(), stand.coordinates.begin());
+        return stand;
+    }
+    std::int64_t lowest_depth() override { return std::exchange(lowest_depth_, stack_.depth()); }
+    void skip_to(const TurtleStand& stand) override {
+        lift();
+        if constexpr (requires { state_.place.at.begin(); }) {
+            std::copy_n(stand.coordinates.begin(), state_.place.at.size(), state_.place.at.begin());
+        }
+        state_.place.heading = stand.heading;
+        state_.pen = stand.pen;
+        position_ = stand.position;
+    }
+
 private:
     using Place = typename Walker::State;
     struct State {
@@ -319,6 +337,7 @@ private:
                 break;
             case Action::pop: {
                 State popped = stack_.pop(position_);
+                lowest_depth_ = std::min(lowest_depth_, stack_.depth());
                 lift();
                 state_ = popped;
                 edges_.pop(state_.places);
@@ -497,6 +516,7 @@ private:
     std::vector<Instruction> commands_;
     State state_;
     BracketStack<State> stack_;
+    std::int64_t lowest_depth_ = 0;
     PolygonStack<Place, glm::dvec2> polygons_;
     InsertedEdges<Place> edges_;
     bool is_outlining_ = false;  ///< the pattern's polygons are outlines

@@ -4,6 +4,7 @@
 #include "engine/derivation/derivation.h"
 #include "engine/geometry/path.h"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -45,6 +46,15 @@ public:
                           bool /*is_closed*/) {}
 };
 
+/// Where a turtle on a lattice is between two runs of symbols.
+struct TurtleStand {
+    std::array<std::int64_t, 8> coordinates{};  ///< of its lattice; the first Lattice::rank count
+    std::uint32_t heading = 0;
+    Pen pen{};
+    std::int64_t depth = 0;      ///< open brackets
+    std::uint64_t position = 0;  ///< symbols read or skipped
+};
+
 /// A turtle in the plane. Symbols of the third dimension are skipped. Labels are reported when the pen is lifted,
 /// because they do not interrupt lines. Unbalanced brackets or braces in the word, steps that are not finite, and
 /// nesting over 2^20 are a WordError that names the symbol's position. Source: Prusinkiewicz & Hanan 1989,
@@ -65,6 +75,14 @@ public:
 
     /// Valid after finish() of a surveying turtle.
     virtual Survey survey() const = 0;
+
+    /// Nullopt off a lattice, within a polygon, and if the pattern has inserted edges.
+    virtual std::optional<TurtleStand> stand() const = 0;
+    /// The least number of open brackets since the last call.
+    virtual std::int64_t lowest_depth() = 0;
+    /// Lifts the pen and leaves out a part of the word, whose effect is known and which closes the brackets that it
+    /// opens: continues from `stand`, whose depth is ignored.
+    virtual void skip_to(const TurtleStand& stand) = 0;
 };
 
 }  // namespace sikku

@@ -138,6 +138,7 @@ public:
             in_use_ = in_use_ || symbol.command.action == Action::edge_begin;
         }
     }
+    bool in_use() const { return in_use_; }
     /// Call first.
     void start(const Place& place) {
         if (in_use_) nodes_.push_back({place, 0, 0});

@@ -141,7 +141,9 @@ TileNeighbours::TileNeighbours(const TilePieces& pieces) {
     for (std::uint32_t tile = 0; tile + 1 < pieces.begin.size(); ++tile) {
         near.clear();
         for (std::uint32_t side = pieces.begin[tile]; side < pieces.begin[tile + 1]; ++side) {
-            if (pieces.twin[side] != no_number) near.push_back(pieces.tile(pieces.twin[side]));
+            if (pieces.twin[side] == no_number) continue;
+            const Tile other = pieces.tile(pieces.twin[side]);
+            if (near.empty() || near.back() != other) near.push_back(other);
         }
         std::sort(near.begin(), near.end());
         near.erase(std::unique(near.begin(), near.end()), near.end());

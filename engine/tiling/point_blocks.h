@@ -1,6 +1,7 @@
 // engine/tiling/point_blocks.h: numbers for points with whole coordinates; neighbours are near each other in memory.
 #pragma once
 
+#include "engine/base/memory.h"
 #include "engine/geometry/place_table.h"
 
 #include <glm/vec2.hpp>
@@ -49,7 +50,10 @@ public:
         const std::uint32_t slot = slot_of(*block, coordinates);
         return slot == no_number ? no_number : block->slots[slot];
     }
-    void reserve(std::size_t points) { coordinates_.reserve(points * rank_); }
+    void reserve(std::size_t points) {
+        coordinates_.reserve(points * rank_);
+        use_large_pages(coordinates_);
+    }
     std::size_t size() const { return points_; }
     const std::int32_t* coordinates(std::uint32_t number) const {
         return coordinates_.data() + static_cast<std::size_t>(number) * rank_;
@@ -97,10 +101,14 @@ private:
         if (size == 0) return no_number;
         for (std::size_t at = tag_of(coordinates) & (size - 1);; at = (at + 1) & (size - 1)) {
             const std::uint32_t number = block.slots[at];
-            if (number == no_number || std::equal(coordinates, coordinates + rank_, this->coordinates(number))) {
-                return static_cast<std::uint32_t>(at);
-            }
+            if (number == no_number || is_at(number, coordinates)) return static_cast<std::uint32_t>(at);
         }
+    }
+    bool is_at(std::uint32_t number, const std::int32_t* coordinates) const {
+        const std::int32_t* known = this->coordinates(number);
+        std::size_t i = 0;
+        while (i < rank_ && known[i] == coordinates[i]) ++i;
+        return i == rank_;
     }
     void keep(Block& block, std::uint32_t number) {
         if (block.used + 1 > block.slots.size() / 4 * 3) grow(block);
@@ -114,8 +122,9 @@ private:
         block.slots[at] = number;
     }
     void grow(Block& block) {
-        constexpr std::size_t least = 16;
-        std::vector<std::uint32_t> numbers(std::max(least, 2 * block.slots.size()), no_number);
+        constexpr std::size_t least = 16, usual = 64;
+        const std::size_t factor = block.slots.size() < usual ? 4 : 2;
+        std::vector<std::uint32_t> numbers(std::max(least, factor * block.slots.size()), no_number);
         numbers.swap(block.slots);
         for (const std::uint32_t number : numbers) {
             if (number != no_number) insert(block, number);

@@ -17,8 +17,9 @@ namespace {
 
 class BorderFinder {
 public:
-    BorderFinder(const TilePlane& plane, const TileSet& tiles, const TilePieces& pieces, const Monitor& monitor)
-        : plane_(plane), tiles_(tiles), pieces_(pieces), pulse_(monitor), overlaps_(tiles) {
+    BorderFinder(const TilePlane& plane, const TileSet& tiles, const TilePieces& pieces,
+                 const TileNeighbours& neighbours, const Monitor& monitor)
+        : plane_(plane), tiles_(tiles), pieces_(pieces), neighbours_(neighbours), pulse_(monitor), overlaps_(tiles) {
         for (std::uint32_t side = 0; side < pieces_.sides(); ++side) {
             if (is_border(side)) border_.push_back(side);
         }
@@ -117,9 +118,8 @@ private:
         UnionFind groups(tiles_.tiles());
         for (std::uint32_t tile = 0; tile < tiles_.tiles(); ++tile) {
             pulse_();
-            for (std::uint32_t side = pieces_.begin[tile]; side < pieces_.begin[tile + 1]; ++side) {
-                if (!is_border(side) && pieces_.twin[side] < side)
-                    groups.join(tile, pieces_.tile(pieces_.twin[side]));
+            for (const std::uint32_t other : neighbours_.of(tile)) {
+                if (other < tile) groups.join(tile, other);
             }
         }
         result_.regions = groups.count();
@@ -351,9 +351,11 @@ private:
         const Cyclotomic& numbers = plane_.numbers();
         using Wide = std::array<Int128, 8>;
         Wide sum{};
-        for (const std::uint32_t in_class : tiles_.in_class) {
+        std::vector<std::uint32_t> counts(tiles_.classes.size(), 0);
+        for (const std::uint32_t in_class : tiles_.in_class) ++counts[in_class];
+        for (std::size_t in_class = 0; in_class < counts.size(); ++in_class) {
             const Cyclotomic::Number& area = tiles_.classes[in_class].area_4i;
-            for (std::size_t i = 0; i < area.size(); ++i) sum[i] += area[i];
+            for (std::size_t i = 0; i < area.size(); ++i) sum[i] += Int128(area[i]) * counts[in_class];
         }
         Wide products{};
         for (const std::uint32_t side : result_.sides) {
@@ -371,6 +373,7 @@ private:
     const TilePlane& plane_;
     const TileSet& tiles_;
     const TilePieces& pieces_;
+    const TileNeighbours& neighbours_;
     Pulse pulse_;
     std::vector<std::uint32_t> border_;      // sides without a twin, ascending
     std::vector<std::uint32_t> loop_of_;     // of these
@@ -383,8 +386,8 @@ private:
 }  // namespace
 
 TileBorder find_border(const TilePlane& plane, const TileSet& tiles, const TilePieces& pieces,
-                       const Monitor& monitor) {
-    return BorderFinder(plane, tiles, pieces, monitor).find();
+                       const TileNeighbours& neighbours, const Monitor& monitor) {
+    return BorderFinder(plane, tiles, pieces, neighbours, monitor).find();
 }
 
 }  // namespace sikku

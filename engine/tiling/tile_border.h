@@ -1,6 +1,7 @@
 // engine/tiling/tile_border.h: the border of a tiling, and the gaps that it leaves open.
 #pragma once
 
+#include "engine/tiling/colour_search.h"
 #include "engine/tiling/tile_pieces.h"
 
 #include <cstdint>
@@ -43,6 +44,6 @@ struct TileBorder {
 /// tiles around it touch at corners only. Cost: linear in the pieces, and border pieces near each loop's level for
 /// each loop.
 TileBorder find_border(const TilePlane& plane, const TileSet& tiles, const TilePieces& pieces,
-                       const Monitor& monitor);
+                       const TileNeighbours& neighbours, const Monitor& monitor);
 
 }  // namespace sikku

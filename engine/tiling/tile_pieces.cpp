@@ -1,5 +1,6 @@
 #include "engine/tiling/tile_pieces.h"
 
+#include "engine/base/memory.h"
 #include "engine/base/threads.h"
 #include "engine/derivation/derivation.h"
 #include "engine/tiling/place_grid.h"
@@ -7,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <numbers>
@@ -27,29 +29,102 @@ struct Cut {
 };
 
 /// Pairs sides in opposite directions: each with the first that is free. Cost: linear, if few sides meet at each
-/// point.
-void pair_sides(TilePieces& pieces, std::size_t points) {
-    // Of free sides, the next free one that begins at the same point.
-    std::vector<std::uint32_t>& twin = pieces.twin;
-    twin.assign(pieces.sides(), no_number);
-    std::vector<std::uint32_t> free(points, no_number);
-    for (std::uint32_t side = 0; side < pieces.sides(); ++side) {
-        const std::uint32_t from = pieces.from[side];
+/// point. Memory: 4 bytes a point, 12 for each side that is free at a time.
+class SidePairing {
+public:
+    /// @param twin  receives the pairs
+    SidePairing(std::size_t points, std::vector<std::uint32_t>& twin) : first_(points, no_number), twin_(twin) {}
+    void add(std::uint32_t side, std::uint32_t from, std::uint32_t to) {
         std::uint32_t* found = nullptr;
-        for (std::uint32_t* link = &free[pieces.to(side)]; *link != no_number; link = &twin[*link]) {
-            if (pieces.to(*link) == from) found = link;
+        for (std::uint32_t* link = &first_[to]; *link != no_number; link = &free_[*link].next) {
+            if (free_[*link].to == from) found = link;
         }
         if (found) {
-            const std::uint32_t other = *found;
-            *found = twin[other];
-            twin[other] = side;
-            twin[side] = other;
+            const std::uint32_t place = *found;
+            *found = free_[place].next;
+            twin_[free_[place].side] = side;
+            twin_[side] = free_[place].side;
+            free_[place].next = std::exchange(unused_, place);
+            return;
+        }
+        std::uint32_t place = unused_;
+        if (place == no_number) {
+            place = static_cast<std::uint32_t>(free_.size());
+            free_.emplace_back();
         } else {
-            twin[side] = std::exchange(free[from], side);
+            unused_ = free_[place].next;
+        }
+        free_[place] = {side, to, std::exchange(first_[from], place)};
+    }
+
+private:
+    struct Side {
+        std::uint32_t side = 0, to = 0;
+        std::uint32_t next = no_number;  // free side that begins at the same point
+    };
+    std::vector<std::uint32_t> first_;  // of points: the free side added last
+    std::vector<Side> free_;
+    std::uint32_t unused_ = no_number;  // the first of the unused places in `free_`
+    std::vector<std::uint32_t>& twin_;
+};
+
+/// Pairs the sides that have no twin yet.
+void pair_rest(TilePieces& pieces, std::size_t points) {
+    SidePairing pairing(points, pieces.twin);
+    for (std::size_t tile = 0; tile + 1 < pieces.begin.size(); ++tile) {
+        const std::uint32_t begin = pieces.begin[tile], end = pieces.begin[tile + 1];
+        for (std::uint32_t side = begin; side < end; ++side) {
+            if (pieces.twin[side] != no_number) continue;
+            pairing.add(side, pieces.from[side], pieces.from[side + 1 < end ? side + 1 : begin]);
         }
     }
-    for (std::uint32_t side : free) {
-        while (side != no_number) side = std::exchange(twin[side], no_number);
+}
+
+/// The twins of edges, or no_number. Within parts of tiles that recur they are known.
+std::vector<std::uint32_t> pair_edges(const TileSet& tiles, std::size_t points) {
+    std::vector<std::uint32_t> twin;
+    twin.reserve(tiles.corner.size());
+    use_large_pages(twin);
+    twin.resize(tiles.corner.size(), no_number);
+    for (const auto& [begin, part] : tiles.placed) {
+        const std::vector<std::uint32_t>& partner = tiles.parts[part].partner;
+        for (std::size_t i = 0; i < partner.size(); ++i) {
+            if (partner[i] != no_number) twin[begin + i] = begin + partner[i];
+        }
+    }
+    SidePairing pairing(points, twin);
+    for (std::uint32_t tile = 0; tile < tiles.tiles(); ++tile) {
+        const std::uint32_t begin = tiles.begin[tile], end = tiles.begin[tile + 1];
+        for (std::uint32_t edge = begin; edge < end; ++edge) {
+            if (twin[edge] != no_number) continue;
+            pairing.add(edge, tiles.corner[edge], tiles.corner[edge + 1 < end ? edge + 1 : begin]);
+        }
+    }
+    return twin;
+}
+
+/// Takes over the twins of edges, of which those with a twin are whole.
+void take_twins(TilePieces& pieces, const std::vector<std::uint32_t>& of_edges, const std::vector<Cut>& cuts) {
+    constexpr std::uint32_t share = 32;
+    std::vector<std::uint32_t> first;  // cut from the first edge of each share on
+    first.reserve(of_edges.size() / share + 1);
+    std::uint32_t next = 0;
+    for (std::size_t edge = 0; edge < of_edges.size(); edge += share) {
+        while (next < cuts.size() && cuts[next].edge < edge) ++next;
+        first.push_back(next);
+    }
+    // The side that an edge begins with.
+    const auto side_of = [&](std::uint32_t edge) {
+        std::uint32_t cut = first[edge / share];
+        while (cut < cuts.size() && cuts[cut].edge < edge) ++cut;
+        return edge + cut;
+    };
+    for (std::uint32_t edge = 0; edge < of_edges.size(); ++edge) {
+        const std::uint32_t other = of_edges[edge];
+        if (other == no_number || other < edge) continue;
+        const std::uint32_t side = side_of(edge), twin = side_of(other);
+        pieces.twin[side] = twin;
+        pieces.twin[twin] = side;
     }
 }
 
@@ -81,17 +156,25 @@ TilePieces make_pieces(const TilePlane& plane, const TileSet& tiles, const std::
     return pieces;
 }
 
-/// Finds corners that lie on edges between their ends. @param edges  paired if not all are searched
-std::vector<Cut> find_cuts(const TilePlane& plane, const TileSet& tiles, const TilePieces& edges, CutSearch search,
+/// Finds corners that lie on edges between their ends. @param twin  of edges, which are searched if they have none;
+/// empty: all are
+std::vector<Cut> find_cuts(const TilePlane& plane, const TileSet& tiles, const std::vector<std::uint32_t>& twin,
                            const Monitor& monitor) {
-    const auto is_searched = [&](std::uint32_t edge) {
-        return search == CutSearch::all || edges.twin[edge] == no_number;
+    // Visits the edges of a tile that are searched.
+    const auto each_edge = [&](std::uint32_t tile, auto&& visit) {
+        const std::uint32_t begin = tiles.begin[tile], end = tiles.begin[tile + 1];
+        for (std::uint32_t edge = begin; edge < end; ++edge) {
+            if (!twin.empty() && twin[edge] != no_number) continue;
+            visit(edge, tiles.corner[edge], tiles.corner[edge + 1 < end ? edge + 1 : begin]);
+        }
     };
     std::vector<std::uint32_t> points;
     {
         std::vector<char> is_candidate(plane.points(), 0);
-        for (std::uint32_t edge = 0; edge < edges.sides(); ++edge) {
-            if (is_searched(edge)) is_candidate[edges.from[edge]] = is_candidate[edges.to(edge)] = 1;
+        for (std::uint32_t tile = 0; tile < tiles.tiles(); ++tile) {
+            each_edge(tile, [&](std::uint32_t, std::uint32_t from, std::uint32_t to) {
+                is_candidate[from] = is_candidate[to] = 1;
+            });
         }
         for (std::uint32_t point = 0; point < is_candidate.size(); ++point) {
             if (is_candidate[point]) points.push_back(point);
@@ -139,10 +222,7 @@ std::vector<Cut> find_cuts(const TilePlane& plane, const TileSet& tiles, const T
         };
         for (std::uint32_t tile = first; tile < end; ++tile) {
             pulse();
-            const std::uint32_t last = tiles.begin[tile + 1];
-            for (std::uint32_t i = tiles.begin[tile]; i < last; ++i) {
-                if (is_searched(i)) cut(i, edges.from[i], edges.to(i));
-            }
+            each_edge(tile, cut);
             if (compared + visited > most_compared || cuts_found + found.size() > most_cuts) break;
         }
         compared += visited;
@@ -173,12 +253,26 @@ void list_sides(TilePieces& pieces, std::size_t points) {
     for (const std::uint32_t point : pieces.from) ++pieces.out_begin[point];
     // The ends of the lists, which are filled from there.
     for (std::size_t i = 1; i <= points; ++i) pieces.out_begin[i] += pieces.out_begin[i - 1];
+    pieces.out.reserve(pieces.from.size());
+    use_large_pages(pieces.out);
     pieces.out.resize(pieces.from.size());
     for (std::uint32_t side = pieces.sides(); side-- > 0;) pieces.out[--pieces.out_begin[pieces.from[side]]] = side;
     for_each_index(points / part_size + 1, [&](std::size_t part) {
         for (std::size_t i = part * part_size; i < std::min(points, (part + 1) * part_size); ++i) {
             const auto begin = pieces.out.begin() + pieces.out_begin[i],
                        end = pieces.out.begin() + pieces.out_begin[i + 1];
+            constexpr std::ptrdiff_t few = 16;
+            if (pieces.heading.empty() && end - begin <= few) {
+                std::array<std::uint64_t, few> keys;
+                auto last = keys.begin();
+                for (auto side = begin; side != end; ++side) {
+                    *last++ = std::uint64_t{pieces.direction(*side)} << 32U | *side;
+                }
+                std::sort(keys.begin(), last);
+                std::transform(keys.begin(), last, begin,
+                               [](std::uint64_t key) { return static_cast<std::uint32_t>(key); });
+                continue;
+            }
             const auto order = [&](const auto& towards) {
                 std::sort(begin, end, [&](std::uint32_t a, std::uint32_t b) {
                     return towards(a) != towards(b) ? towards(a) < towards(b) : a < b;
@@ -225,6 +319,7 @@ bool reaches(const TilePlane& plane, const TilePieces& pieces, std::uint32_t sid
 void TilePieces::reserve(std::size_t tiles, std::size_t sides) {
     begin.reserve(tiles + 1);
     from.reserve(sides);
+    use_large_pages(from);
     form_.reserve(sides);
     tile_of_share_.reserve(sides / share + 1);
 }
@@ -238,11 +333,20 @@ std::uint32_t TilePieces::form(std::uint32_t direction, std::uint32_t angle) {
 
 TilePieces cut_into_pieces(TilePlane& plane, const TileSet& tiles, CutSearch search, const Monitor& monitor) {
     if (plane.is_exact()) plane.sort_directions();
-    TilePieces pieces = make_pieces(plane, tiles, {});
-    if (search == CutSearch::unpaired) pair_sides(pieces, plane.points());
-    const std::vector<Cut> cuts = find_cuts(plane, tiles, pieces, search, monitor);
-    if (!cuts.empty()) pieces = make_pieces(plane, tiles, cuts);
-    if (search == CutSearch::all || !cuts.empty()) pair_sides(pieces, plane.points());
+    std::vector<std::uint32_t> twin;
+    if (search == CutSearch::unpaired) twin = pair_edges(tiles, plane.points());
+    const std::vector<Cut> cuts = find_cuts(plane, tiles, twin, monitor);
+    TilePieces pieces = make_pieces(plane, tiles, cuts);
+    if (search == CutSearch::unpaired && cuts.empty()) {
+        pieces.twin = std::move(twin);
+    } else {
+        pieces.twin.reserve(pieces.sides());
+        use_large_pages(pieces.twin);
+        pieces.twin.resize(pieces.sides(), no_number);
+        if (search == CutSearch::unpaired) take_twins(pieces, twin, cuts);
+        std::vector<std::uint32_t>().swap(twin);  // frees the memory
+        pair_rest(pieces, plane.points());
+    }
     if (!plane.is_exact()) find_headings(plane, pieces);
     list_sides(pieces, plane.points());
     return pieces;
@@ -258,6 +362,7 @@ TileVertices check_vertices(const TilePlane& plane, const TileSet& tiles, const 
         std::vector<Overlap> overlaps;
     };
     const std::uint32_t turn = plane.directions();
+    const auto opposite = [&](std::uint32_t to) { return to < turn / 2 ? to + turn / 2 : to - turn / 2; };
     const auto check = [&](std::uint32_t first, std::uint32_t last) {
         Part part;
         Pulse pulse(monitor);
@@ -267,15 +372,20 @@ TileVertices check_vertices(const TilePlane& plane, const TileSet& tiles, const 
             if (sides.empty()) continue;
             ++part.points;
             std::uint64_t ends = 0;
+            std::uint32_t begin = plane.is_exact() ? pieces.direction(sides.front()) : 0;
             for (std::size_t i = 0; i < sides.size(); ++i) {
                 const std::uint32_t before = pieces.previous(sides[i]);
                 if (pieces.twin[before] == no_number) ++ends;
                 if (sides.size() == 1) continue;
                 const std::uint32_t next = sides[i + 1 < sides.size() ? i + 1 : 0];
                 if (plane.is_exact()) {
-                    const std::uint32_t begin = pieces.direction(sides[i]);
-                    const std::uint32_t extent = (pieces.direction(before) + turn / 2 + turn - begin) % turn;
-                    const std::uint32_t room = (pieces.direction(next) + turn - begin) % turn;
+                    const std::uint32_t end = pieces.direction(next);
+                    const auto from_begin = [&](std::uint32_t to) {
+                        return to < begin ? to + turn - begin : to - begin;
+                    };
+                    const std::uint32_t extent = from_begin(opposite(pieces.direction(before)));
+                    const std::uint32_t room = from_begin(end);
+                    begin = end;
                     if (extent <= room && room > 0) continue;
                 } else if (!reaches(plane, pieces, sides[i], before, next)) {
                     continue;

@@ -52,6 +52,11 @@ public:
         return is_exact() ? place_of(exact_points_.coordinates(point)) : points_.at(point);
     }
     Cyclotomic::Number coordinates(std::uint32_t point) const;
+    /// Adds the coordinates of a point of an exact plane to a sum.
+    void add_to(Cyclotomic::Number& sum, std::uint32_t point) const {
+        const std::int32_t* const coordinates = exact_points_.coordinates(point);
+        for (std::size_t i = 0; i < rank_; ++i) sum[i] += coordinates[i];
+    }
     /// The coordinates of a point relative to another.
     Cyclotomic::Number way(std::uint32_t from, std::uint32_t to) const;
 

@@ -6,7 +6,7 @@
 #include "engine/derivation/forecast.h"
 #include "engine/geometry/polygon_classes.h"
 #include "engine/geometry/turtle.h"
-#include "engine/tiling/tile_anchors.h"
+#include "engine/tiling/tile_repeats.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -188,6 +188,69 @@ public:
 
     void expect(double polygons) { expected_ = polygons; }
 
+    TileMark mark() const { return {tiles_.tiles(), tiles_.polygons}; }
+
+    std::optional<std::uint32_t> keep_part(const TileMark& mark, const Cyclotomic::Number& origin) {
+        if (tiles_.tiles() - mark.tiles != tiles_.polygons - mark.polygons) return std::nullopt;
+        TilePart part;
+        std::unordered_map<std::uint32_t, std::uint32_t> numbers;       // of points
+        std::unordered_map<std::uint64_t, std::uint32_t> by_direction;  // edges by their ends; no_number: several
+        const auto key = [](std::uint32_t from, std::uint32_t to) { return std::uint64_t{from} << 32U | to; };
+        const std::uint32_t begin = tiles_.begin[mark.tiles];
+        for (std::uint32_t tile = mark.tiles; tile < tiles_.tiles(); ++tile) {
+            const auto corners = tiles_.corners(tile);
+            for (std::size_t i = 0; i < corners.size(); ++i) {
+                const auto edge = static_cast<std::uint32_t>(part.corner.size());
+                const std::uint32_t to = corners[i + 1 < corners.size() ? i + 1 : 0];
+                if (const auto [found, is_new] = by_direction.try_emplace(key(corners[i], to), edge); !is_new) {
+                    found->second = no_number;
+                }
+                const auto [found, is_new] =
+                    numbers.try_emplace(corners[i], static_cast<std::uint32_t>(numbers.size()));
+                part.corner.push_back(found->second);
+                if (!is_new) continue;
+                const Cyclotomic::Number at = plane_.coordinates(corners[i]);
+                for (std::size_t k = 0; k < plane_.numbers().rank(); ++k) {
+                    part.points.push_back(static_cast<std::int32_t>(at[k] - origin[k]));
+                }
+            }
+            part.in_class.push_back(tiles_.in_class[tile]);
+            part.colour.push_back(tiles_.colour[tile]);
+        }
+        part.partner.assign(part.corner.size(), no_number);
+        for (const auto& [ends, edge] : by_direction) {
+            const auto other = by_direction.find(ends >> 32U | ends << 32U);
+            if (edge != no_number && other != by_direction.end()) part.partner[edge] = other->second;
+        }
+        const auto number = static_cast<std::uint32_t>(tiles_.parts.size());
+        tiles_.parts.push_back(std::move(part));
+        tiles_.placed.push_back({begin, number});
+        return number;
+    }
+
+    void add_part(std::uint32_t number, const Cyclotomic::Number& origin) {
+        const TilePart& part = tiles_.parts[number];
+        const std::size_t rank = plane_.numbers().rank();
+        part_points_.clear();
+        for (std::size_t i = 0; i < part.points.size(); i += rank) {
+            Cyclotomic::Number at = origin;
+            for (std::size_t k = 0; k < rank; ++k) at[k] += part.points[i + k];
+            part_points_.push_back(plane_.point(at, {}));
+        }
+        const auto begin = static_cast<std::uint32_t>(tiles_.corner.size());
+        auto corner = part.corner.begin();
+        for (std::size_t tile = 0; tile < part.in_class.size(); ++tile) {
+            ++tiles_.polygons;
+            corners_.clear();
+            for (std::size_t left = tiles_.classes[part.in_class[tile]].vectors.size(); left > 0; --left) {
+                corners_.push_back(part_points_[*corner++]);
+            }
+            keep_tile(part.in_class[tile], part.colour[tile]);
+        }
+        // Without duplicates, which are left out.
+        if (tiles_.corner.size() - begin == part.corner.size()) tiles_.placed.push_back({begin, number});
+    }
+
 private:
     /// An outline as it was drawn, and those of its vertices that are corners.
     struct Outline {
@@ -200,7 +263,7 @@ private:
     static constexpr std::size_t most_outlines = 100'000;
 
     void keep_tile(std::uint32_t in_class, std::int32_t colour) {
-        const std::uint32_t earlier = anchors_.add(in_class, corners_.front());
+        const std::uint32_t earlier = tiles_.anchors.add(in_class, corners_.front());
         if (earlier != no_number)
             return fault(TileFault::duplicate, plane_.at(corners_.front()), tiles_.number[earlier]);
         if (static_cast<double>(tiles_.corner.size() + corners_.size()) > most_corners_) {
@@ -222,13 +285,14 @@ private:
         const double share =
             std::min(expected_ / tiles_.tiles(), most_corners_ / static_cast<double>(tiles_.corner.size()));
         const auto expected = [&](std::size_t size) {
-            constexpr double most = 4e6;  // an estimate, which may be far too large
+            constexpr double most = 16e6;  // an estimate, which may be far too large
             return static_cast<std::size_t>(std::min(share * static_cast<double>(size), most)) + 1;
         };
         tiles_.corner.reserve(expected(tiles_.corner.size()));
         plane_.expect_points(expected(plane_.points()));
         for (auto* list : {&tiles_.begin, &tiles_.in_class, &tiles_.number}) list->reserve(expected(list->size()));
         tiles_.colour.reserve(expected(tiles_.colour.size()));
+        use_large_pages(tiles_.corner);
     }
 
     void fault(TileFault fault, glm::dvec2 at, std::uint32_t other = 0) {
@@ -369,7 +433,7 @@ private:
     double most_corners_;
     double expected_ = 0;  // number of polygons
     const Monitor& monitor_;
-    Points outline_, corners_, vectors_, key_, outline_points_;
+    Points outline_, corners_, vectors_, key_, outline_points_, part_points_;
     std::unordered_map<Points, Outline, Hash> outlines_;  // by its vertices relative to the first one
     bool has_spike_ = false;
     std::uint32_t spike_ = 0;
@@ -378,7 +442,6 @@ private:
     std::unordered_multimap<std::uint64_t, std::uint32_t> by_hash_;
     std::unordered_map<std::int64_t, std::uint32_t> angles_;
     RoughNumbers rough_angles_;
-    TileAnchors anchors_;
 };
 
 TileCollector::TileCollector(TilePlane& plane, TileSet& tiles, double most_corners, const Monitor& monitor)
@@ -393,6 +456,15 @@ void TileCollector::add(std::span<const std::int64_t> coordinates, std::span<con
 }
 void TileCollector::add(std::span<const std::uint32_t> points, std::int32_t colour, bool is_closed) {
     implementation_->add(points, colour, is_closed);
+}
+TileMark TileCollector::mark() const {
+    return implementation_->mark();
+}
+std::optional<std::uint32_t> TileCollector::keep_part(const TileMark& mark, const Cyclotomic::Number& origin) {
+    return implementation_->keep_part(mark, origin);
+}
+void TileCollector::add_part(std::uint32_t part, const Cyclotomic::Number& origin) {
+    implementation_->add_part(part, origin);
 }
 
 namespace {
@@ -485,7 +557,10 @@ TileSet collect_tiles(const Grammar& grammar, TilePlane& plane, const TileLimits
     const auto turtle = Turtle::tracing(grammar, reader, reader, false);
     const auto watch = [&monitor](std::uint64_t symbols) { monitor.advance(symbols); };
     monitor.expect(expected_symbols(grammar, true));
-    derive(grammar, *turtle, DerivationOptions::within(limits.nodes, watch));
+    DerivationOptions derivation = DerivationOptions::within(limits.nodes, watch);
+    TileRepeats repeats(grammar, *turtle, collector, monitor);
+    if (plane.is_exact()) derivation.pruner = &repeats;
+    derive(grammar, *turtle, derivation);
     return tiles;
 }
 

@@ -3,11 +3,13 @@
 
 #include "engine/base/monitor.h"
 #include "engine/language/grammar.h"
+#include "engine/tiling/tile_anchors.h"
 #include "engine/tiling/tile_plane.h"
 
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -65,6 +67,15 @@ struct TileClass {
     std::uint32_t first = 0;             ///< its first tile
 };
 
+/// Valid tiles on an exact plane that recur at other places, relative to a place of its lattice.
+struct TilePart {
+    std::vector<std::int32_t> points;    ///< coordinates of their corners, in the order in which these occur first
+    std::vector<std::uint32_t> corner;   ///< of all tiles, as number of a point
+    std::vector<std::uint32_t> partner;  ///< of edges: the only one in the opposite direction, or no_number
+    std::vector<std::uint32_t> in_class;
+    std::vector<std::int32_t> colour;
+};
+
 /// Valid tiles in drawing order, without duplicates.
 struct TileSet {
     /// For each tile; `begin` has one more entry at its end.
@@ -73,6 +84,14 @@ struct TileSet {
     std::vector<std::int32_t> colour;
     std::vector<std::uint32_t> number;  ///< of the polygon in drawing order, from 1
     std::vector<std::uint32_t> corner;  ///< points, anticlockwise, those on straight stretches left out
+    TileAnchors anchors;
+
+    /// Parts that recur, and where their tiles are: the index of the first corner.
+    struct PlacedPart {
+        std::uint32_t begin = 0, part = 0;
+    };
+    std::vector<TilePart> parts;
+    std::vector<PlacedPart> placed;
 
     std::vector<TileClass> classes;  ///< in the order of their first tiles
     std::vector<double> angles;      ///< angles between edges, in degrees
@@ -98,6 +117,11 @@ struct TileLimits {
     double bytes = 0;  ///< of memory; 0: half of what is available
 };
 
+/// The state of a set of tiles to which more are added.
+struct TileMark {
+    std::uint32_t tiles = 0, polygons = 0;
+};
+
 /// Adds polygons one by one to a set of tiles.
 class TileCollector {
 public:
@@ -110,6 +134,13 @@ public:
     /// The same on an exact plane, in coordinates of its lattice, and faster.
     void add(std::span<const std::int64_t> coordinates, std::span<const glm::dvec2> places, std::int32_t colour,
              bool is_closed);
+
+    TileMark mark() const;
+    /// Keeps the tiles that were added since as a part, relative to a place. Returns its number; nullopt if there
+    /// were faults. Only on an exact plane.
+    std::optional<std::uint32_t> keep_part(const TileMark& mark, const Cyclotomic::Number& origin);
+    /// Adds the tiles of a part at another place, as if they were drawn there. @throws BudgetError
+    void add_part(std::uint32_t part, const Cyclotomic::Number& origin);
 
 private:
     class Implementation;

@@ -1,7 +1,5 @@
 #include "engine/tiling/tile_symmetry.h"
 
-#include "engine/tiling/tile_anchors.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -32,9 +30,7 @@ public:
             by_hash_.emplace(hash_of(tiles_.classes[i].vectors), i);
         for (const std::uint32_t point : tiles_.corner) {
             centre_ += plane_.at(point) / static_cast<double>(count_);
-            if (!plane_.is_exact()) continue;
-            const Cyclotomic::Number at = plane_.coordinates(point);
-            for (std::size_t i = 0; i < at.size(); ++i) sum_[i] += at[i];
+            if (plane_.is_exact()) plane_.add_to(sum_, point);
         }
     }
 
@@ -155,20 +151,9 @@ private:
             pulse_();
             const ClassImage& image = images[tiles_.in_class[tile]];
             const std::uint32_t point = moved(motion, tiles_.corner[tiles_.begin[tile] + image.corner]);
-            if (point == no_number || !is_placed(image.in_class, point)) return false;
+            if (point == no_number || tiles_.anchors.find(image.in_class, point) == no_number) return false;
         }
         return true;
-    }
-
-    /// True if there is a tile of that class and first corner.
-    bool is_placed(std::uint32_t in_class, std::uint32_t corner) {
-        if (!placed_) {
-            placed_.emplace();
-            for (std::uint32_t tile = 0; tile < tiles_.tiles(); ++tile) {
-                placed_->add(tiles_.in_class[tile], tiles_.corner[tiles_.begin[tile]]);
-            }
-        }
-        return placed_->find(in_class, corner) != no_number;
     }
 
     std::optional<ClassImage> find_image(const Motion& motion, const TileClass& from) const {
@@ -233,7 +218,6 @@ private:
     const TilePlane& plane_;
     const TileSet& tiles_;
     Pulse pulse_;
-    std::optional<TileAnchors> placed_;  ///< of all tiles, as soon as they are needed
     std::unordered_multimap<std::uint64_t, std::uint32_t> by_hash_;
     std::int64_t count_;  ///< corners, at most 2^32, so that products stay below 2^62
     Cyclotomic::Number sum_{};

@@ -57,7 +57,6 @@ void count_neighbours(const TileNeighbours& neighbours, TilingExamination& resul
 }
 
 void examine_neighbours(TilingPatch& patch, const TilingOptions& options, TilingExamination& result) {
-    patch.neighbours = TileNeighbours(patch.pieces);
     count_neighbours(patch.neighbours, result);
     TileColouring colouring = find_colours(patch.neighbours, options.colours, options.monitor);
     result.least_colours = colouring.at_least;
@@ -68,7 +67,7 @@ void examine_neighbours(TilingPatch& patch, const TilingOptions& options, Tiling
 /// Finds the border of tiles whose vertices do not overlap.
 void examine_border(TilingPatch& patch, const TileVertices& vertices, const Monitor& monitor,
                     TilingExamination& result) {
-    patch.border = find_border(patch.plane, patch.tiles, patch.pieces, monitor);
+    patch.border = find_border(patch.plane, patch.tiles, patch.pieces, patch.neighbours, monitor);
     const TileBorder& border = patch.border;
     result.violations.add(border.overlaps);
     result.has_border = border.overlaps.count == 0;
@@ -101,6 +100,7 @@ void examine_pieces(TilingPatch& patch, CutSearch search, const TilingOptions& o
     result.inner_edges = (pieces.sides() - result.border_edges) / 2;
     result.edges = result.inner_edges + result.border_edges;
     result.edges_cut = pieces.edges_cut;
+    patch.neighbours = TileNeighbours(patch.pieces);
     run_both([&] { examine_vertices(patch, options.monitor, result); },
              [&] { examine_neighbours(patch, options, result); });
     // Tiles that do not overlap are countries of a map (Appel & Haken 1977).

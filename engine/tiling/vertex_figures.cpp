@@ -3,6 +3,7 @@
 #include "engine/tiling/tiling.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <numeric>
 #include <unordered_map>
@@ -47,14 +48,23 @@ struct Sequences {
     std::vector<std::uint64_t> counts;  ///< of points
 
     std::uint32_t add(const Corners& corners) {
+        std::uint32_t& recent = recent_[Hash()(corners) % recent_.size()];
+        if (recent >= counts.size() || *sequences[recent] != corners) recent = number_of(corners);
+        ++counts[recent];
+        return recent;
+    }
+
+private:
+    std::uint32_t number_of(const Corners& corners) {
         const auto [found, is_new] = numbers.try_emplace(corners, static_cast<std::uint32_t>(counts.size()));
         if (is_new) {
             sequences.push_back(&found->first);
             counts.push_back(0);
         }
-        ++counts[found->second];
         return found->second;
     }
+
+    std::array<std::uint32_t, 256> recent_{};  // numbers of sequences that were found last, by hash
 };
 
 }  // namespace

@@ -183,6 +183,32 @@ TEST(PlotRoute, IsMuchShorterThanAlwaysGoingToTheNearest) {
     examine(in_rows(40, false), 1 + 1e-9);
 }
 
+/// Strokes in rows, numbered at random.
+std::vector<Points> dashes(int side) {
+    std::vector<Points> lines;
+    for (int y = 0; y < side; ++y) {
+        for (int x = 0; x < side; ++x) lines.push_back({{x + 0.2, y}, {x + 0.8, y}});
+    }
+    std::shuffle(lines.begin(), lines.end(), std::mt19937(3));
+    return lines;
+}
+
+TEST(PlotRoute, OfManyStrokesIsShortWhetherTheyAreRegularOrNot) {
+    const auto examine = [](const std::vector<Points>& lines, double most) {
+        const Drawing drawing(lines);
+        const PlotStrokes sorted = drawing.sorted();
+        expect_all_strokes(drawing, sorted);
+        EXPECT_LT(drawing.travel(sorted), most) << lines.size() << " strokes";
+    };
+    // The shortest tour of n points scattered over an area A takes about 0.7124 sqrt(nA) (Johnson & McGeoch 1996);
+    // strokes of almost no length are such points.
+    constexpr int scattered_points = 30'000;
+    examine(scattered(scattered_points, 1e-6, false, 6), 1.09 * 0.7124 * std::sqrt(scattered_points) * 100);
+    // Travels within rows, and from row to row.
+    examine(dashes(150), 1.03 * (150 * 149 * 0.4 + 149 * 1.0));
+    examine(dashes(100), 1.03 * (100 * 99 * 0.4 + 99 * 1.0));
+}
+
 TEST(PlotRoute, IsTheShortestOfFewStrokes) {
     int longer = 0;
     constexpr int drawings = 60;
