@@ -1,0 +1,128 @@
+#!/usr/bin/env python3
+"""Makes the book; see packaging/book.sh, which calls this.
+
+usage: build.py OUTPUT --program PROGRAM --version VERSION [--only NUMBER,...]
+
+--only makes a book of a few figures, for looking at them.
+"""
+
+import argparse
+import logging
+import os
+import sys
+import tempfile
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent / "site"))  # the readers of patterns and reports
+
+import pikepdf  # noqa: E402
+import weasyprint  # noqa: E402
+
+import figures  # noqa: E402
+import text  # noqa: E402
+from plates import Picture, Studio, laid_out  # noqa: E402
+from program import Program  # noqa: E402
+
+MM = 25.4 / 96  # of a CSS pixel
+POINT = 72 / 25.4  # of a millimetre
+LEAST_PLATE = 95.0  # mm; figures whose text leaves less have their systems on a second page
+
+
+def rendered(html: str) -> weasyprint.Document:
+    return weasyprint.HTML(string=html, base_url=str(HERE)).render()
+
+
+def places_of(document: weasyprint.Document) -> dict[str, tuple[int, float, float]]:
+    """The page, from 1, and the position in millimetres of each element with an identifier."""
+    return {
+        name: (number, x * MM, y * MM)
+        for number, page in enumerate(document.pages, 1)
+        for name, (x, y) in page.anchors.items()
+    }
+
+
+def plate_height(figure: figures.Figure, places: dict[str, tuple[int, float, float]], end: str) -> float:
+    """What the text up to an element leaves of the page, in millimetres, measured in a book without pictures."""
+    first, _, _ = places[f"{figure.anchor}-plate"]
+    last, _, bottom = places[f"{figure.anchor}-{end}"]
+    return text.PAGE_BOTTOM - bottom - 2 if first == last else 0.0
+
+
+def insert_pictures(pdf: pikepdf.Pdf, pictures: list[Picture], places: dict[str, tuple[int, float, float]]) -> None:
+    """Puts the drawings that are PDF files below the text of their pages."""
+    for picture in pictures:
+        if picture.file.suffix != ".pdf":
+            continue
+        number, x, y = places[picture.anchor]
+        page = pdf.pages[number - 1]
+        height = float(page.mediabox[3])
+        left, top = x * POINT, height - y * POINT
+        box = pikepdf.Rectangle(left, top - picture.height * POINT, left + picture.width * POINT, top)
+        with pikepdf.open(picture.file) as drawing:
+            page.add_underlay(drawing.pages[0], box)
+
+
+def build(output: Path, program: Program, version: str, only: list[str], scratch: Path) -> str:
+    documents, patterns = figures.read()
+    if only:
+        for document in documents:
+            document.figures = [each for each in document.figures if each.number in only]
+        documents = [each for each in documents if each.figures]
+    studio = Studio(program, patterns, scratch)
+    book = text.Book(documents, patterns, studio, version)
+    shown = book.figures
+
+    whole = [each for each in shown if not each.is_half]
+    places = places_of(rendered(book.html({}, {})))
+    book.spreads = {each.anchor for each in whole if plate_height(each, places, "end") < LEAST_PLATE}
+    if book.spreads:
+        places = places_of(rendered(book.html({}, {})))
+    plates = {}
+    for figure in shown:
+        end = "words" if figure.anchor in book.spreads else "end"
+        width, height = (text.HALF_WIDTH, text.HALF_HEIGHT) if figure.is_half else (text.WIDTH, plate_height(figure, places, end))
+        plates[figure.anchor] = laid_out(figure, width, height)
+    pictures = [each for rows in plates.values() for row in rows for each in row] + book.extra_pictures()
+    studio.make_all(pictures, os.cpu_count() or 1)
+
+    # The pictures leave every text on its page, unless something does not fit.
+    while True:
+        pages = {name: page for name, (page, _, _) in places.items()}
+        document = rendered(book.html(plates, pages))
+        places = places_of(document)
+        if all(places[name][0] == page for name, page in pages.items()):
+            break
+    plain = scratch / "text.pdf"
+    document.write_pdf(plain)
+    with pikepdf.open(plain) as pdf:
+        insert_pictures(pdf, pictures, places)
+        pdf.save(output, static_id=True, object_stream_mode=pikepdf.ObjectStreamMode.generate)
+    return f"{len(document.pages)} pages, {len(shown)} figures, {output.stat().st_size / 1e6:.1f} MB"
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser()
+    parser.add_argument("output")
+    parser.add_argument("--program", required=True)
+    parser.add_argument("--version", required=True)
+    parser.add_argument("--only", default="")
+    options = parser.parse_args()
+    if not Path(options.program).is_file():
+        sys.exit(f"book: {options.program} is missing; ./demo builds it")
+    logging.getLogger("fontTools").setLevel(logging.ERROR)  # it doubts the widths of glyphs in Linux Libertine
+    output = Path(options.output)
+    output.parent.mkdir(parents=True, exist_ok=True)
+    only = [each for each in options.only.split(",") if each]
+    with tempfile.TemporaryDirectory(dir=output.parent, prefix=output.name + ".") as folder:
+        made = Path(folder) / "book.pdf"
+        try:
+            facts = build(made, Program(str(Path(options.program).resolve())), options.version, only, Path(folder))
+        except (ValueError, OSError) as error:
+            sys.exit(f"book: {error}")
+        made.replace(output)
+    print(facts)
+
+
+if __name__ == "__main__":
+    main()
