@@ -21,12 +21,12 @@ import weasyprint  # noqa: E402
 
 import figures  # noqa: E402
 import text  # noqa: E402
-from plates import Picture, Studio, laid_out  # noqa: E402
+from plates import Picture, Studio, pages_of  # noqa: E402
 from program import Program  # noqa: E402
 
 MM = 25.4 / 96  # of a CSS pixel
 POINT = 72 / 25.4  # of a millimetre
-LEAST_PLATE = 95.0  # mm; figures whose text leaves less have their systems on a second page
+LEAST_PLATE = 92.0  # mm; figures whose text leaves less have their systems on a second page
 
 
 def rendered(html: str) -> weasyprint.Document:
@@ -42,9 +42,10 @@ def places_of(document: weasyprint.Document) -> dict[str, tuple[int, float, floa
     }
 
 
-def plate_height(figure: figures.Figure, places: dict[str, tuple[int, float, float]], end: str) -> float:
-    """What the text up to an element leaves of the page, in millimetres, measured in a book without pictures."""
-    first, _, _ = places[f"{figure.anchor}-plate"]
+def room_for(figure: figures.Figure, places: dict[str, tuple[int, float, float]], plate: str, end: str) -> float:
+    """What the text from the place of pictures to an element leaves of the page, in millimetres, measured in a book without
+    pictures."""
+    first, _, _ = places[f"{figure.anchor}-{plate}"]
     last, _, bottom = places[f"{figure.anchor}-{end}"]
     return text.PAGE_BOTTOM - bottom - 2 if first == last else 0.0
 
@@ -75,15 +76,27 @@ def build(output: Path, program: Program, version: str, only: list[str], scratch
 
     whole = [each for each in shown if not each.is_half]
     places = places_of(rendered(book.html({}, {})))
-    book.spreads = {each.anchor for each in whole if plate_height(each, places, "end") < LEAST_PLATE}
-    if book.spreads:
-        places = places_of(rendered(book.html({}, {})))
-    plates = {}
+    book.spreads = {each.anchor for each in whole if each.turn or room_for(each, places, "plate", "end") < LEAST_PLATE}
+    places = places_of(rendered(book.html({}, {}))) if book.spreads else places
+    for number, picture in book.openers.items():
+        _, _, top = places[f"document-{number}"]
+        _, _, bottom = places[f"document-{number}-end"]
+        picture.height = text.PAGE_HEIGHT - text.OPENER_MARGIN - (bottom - top) - text.OPENER_GAP
+    plates: text.Plates = {}
     for figure in shown:
-        end = "words" if figure.anchor in book.spreads else "end"
-        width, height = (text.HALF_WIDTH, text.HALF_HEIGHT) if figure.is_half else (text.WIDTH, plate_height(figure, places, end))
-        plates[figure.anchor] = laid_out(figure, width, height)
-    pictures = [each for rows in plates.values() for row in rows for each in row] + book.extra_pictures()
+        if figure.is_half:
+            plates[figure.anchor] = pages_of(figure, text.HALF_WIDTH, text.HALF_HEIGHT)
+        elif figure.anchor in book.spreads:
+            if not figure.turn and len(figure.drawings) > 1:
+                print(f"book: warning: {figure.number} needs two pages, but has no turn", file=sys.stderr)
+            rooms = room_for(figure, places, "plate", "words"), room_for(figure, places, "second", "end")
+            plates[figure.anchor] = pages_of(figure, text.WIDTH, *rooms)
+        else:
+            plates[figure.anchor] = pages_of(figure, text.WIDTH, room_for(figure, places, "plate", "end"))
+    for figure in shown:
+        if figure.has_one_scale:
+            studio.set_one_scale(figure, [each for rows in plates[figure.anchor] for row in rows for each in row])
+    pictures = [each for pages in plates.values() for rows in pages for row in rows for each in row] + book.extra_pictures()
     studio.make_all(pictures, os.cpu_count() or 1)
 
     # The pictures leave every text on its page, unless something does not fit.

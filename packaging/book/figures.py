@@ -16,8 +16,8 @@ FILE = HERE / "figures.toml"
 # Sentences of a pattern's description that say what was mended or reconstructed.
 REMADE = re.compile(r"\b(Mended|mended|[Rr]econstruct\w*|guess\w*|does not (say|tell)|text leaves? (it )?open|leaves open)\b")
 FIGURE_KEYS = {
-    "number", "chapter", "title", "draw", "gallery", "labels", "systems", "columns", "step", "ground", "half", "caption", "note",
-    "without", "left_out", "index",
+    "number", "chapter", "title", "draw", "gallery", "labels", "systems", "columns", "turn", "one_scale", "ground", "half", "caption",
+    "note", "without", "left_out", "index",
 }  # fmt: skip
 
 
@@ -46,8 +46,10 @@ class Figure:
     drawings: list[Drawing] = field(default_factory=list)
     labels: list[str] = field(default_factory=list)
     systems: list[str] = field(default_factory=list)  # names of patterns
-    columns: int = 0  # 0: as many as make the pictures largest
-    step: tuple[float, float, float] | None = None  # mm, on a picture of this width and height in mm
+    columns: list[int] = field(default_factory=list)  # of each row; one number: of all; none: what makes pictures largest
+    turn: int = 0  # pictures after these are on the second page, above the systems; 0: all are on the first
+    has_one_scale: bool = False
+    step: tuple[float, float, float] | None = None  # mm, on a picture of this width and height in mm: of a gallery in space
     ground: str = ""
     is_half: bool = False
     caption: str = ""
@@ -90,7 +92,7 @@ def drawings_of(text: str) -> list[Drawing]:
         if option in ("-n", "--variant"):
             values = range_of(options[at + 1]) if option == "-n" else options[at + 1].split(",")
             choices.append([(option, value) for value in values])
-        elif option in ("--set", "--seed", "--highlight"):
+        elif option in ("--set", "--seed", "--highlight", "--view"):
             choices.append([(option, options[at + 1])])
         elif option == "--rule":
             choices.append([(option,)])
@@ -144,8 +146,10 @@ def label_of(drawing: Drawing, same_pattern: bool, pattern: Pattern) -> str:
 def read_figure(entry: dict, chapter: str, patterns: dict[str, Pattern]) -> Figure:
     if unknown := set(entry) - FIGURE_KEYS:
         raise ValueError(f"{entry.get('number')}: unknown key '{sorted(unknown)[0]}'")
+    columns = entry.get("columns", [])
     figure = Figure(
-        entry["number"], entry.get("title", ""), entry.get("chapter", chapter), columns=entry.get("columns", 0),
+        entry["number"], entry.get("title", ""), entry.get("chapter", chapter), turn=entry.get("turn", 0),
+        columns=columns if isinstance(columns, list) else [columns],
         ground=entry.get("ground", ""), is_half=entry.get("half", False), caption=typographic(entry.get("caption", "")),
         note=typographic(entry.get("note", "")), without=entry.get("without", ""), left_out=entry.get("left_out", ""),
         index=entry.get("index", []),
@@ -154,10 +158,9 @@ def read_figure(entry: dict, chapter: str, patterns: dict[str, Pattern]) -> Figu
         return figure
     if "gallery" in entry:
         figure.drawings, figure.step = gallery_of(entry["gallery"])
+        figure.has_one_scale = figure.step is not None
     figure.drawings += [each for line in entry.get("draw", []) for each in drawings_of(line)]
-    if "step" in entry:
-        step, size = entry["step"].split()
-        figure.step = (float(step), *map(float, size.split("x")))
+    figure.has_one_scale |= entry.get("one_scale", False)
     if not figure.drawings:
         raise ValueError(f"{figure.number}: neither drawn nor left out")
     names = list(dict.fromkeys(each.pattern for each in figure.drawings))
@@ -179,7 +182,9 @@ def read_figure(entry: dict, chapter: str, patterns: dict[str, Pattern]) -> Figu
         figure.labels = [typographic(each) for each in entry["labels"]]
         if len(figure.labels) != len(figure.drawings):
             raise ValueError(f"{figure.number}: {len(figure.labels)} labels for {len(figure.drawings)} drawings")
-    elif len(figure.drawings) > 1:
+    if sum(figure.columns[1:]) and sum(figure.columns) != len(figure.drawings):
+        raise ValueError(f"{figure.number}: {sum(figure.columns)} places for {len(figure.drawings)} drawings")
+    if not figure.labels and len(figure.drawings) > 1:
         figure.labels = [label_of(each, len(names) == 1, patterns[each.pattern]) for each in figure.drawings]
     return figure
 
@@ -189,7 +194,8 @@ def read() -> tuple[list[Document], dict[str, Pattern]]:
     patterns = {each.name: each for group in read_all(ROOT / "patterns").values() for each in group}
     documents = []
     for at, entry in enumerate(tomllib.loads(FILE.read_text())["document"]):
-        figures, chapter = [], ""
+        figures = []
+        chapter = entry["name"]
         for number, each in enumerate(entry["figure"], 1):
             figures.append(read_figure(each, chapter, patterns))
             figures[-1].anchor = f"figure-{at + 1}-{number}"

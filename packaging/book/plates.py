@@ -14,6 +14,7 @@ from program import Program, table_of
 GAP = 2.5  # mm between pictures
 LABEL = 5.0  # mm, a line below a picture
 DPI = 300  # of pictures in light
+THICKEST = 0.014  # of the shorter side of a picture: lines of curves with few steps
 
 
 @dataclass
@@ -48,28 +49,44 @@ def best_columns(count: int, width: float, height: float) -> int:
     return max(range(1, count + 1), key=lambda columns: (side(columns), -columns))
 
 
-def laid_out(figure: Figure, width: float, height: float) -> list[list[Picture]]:
-    """The pictures of a figure in rows, in an area of this size with labels."""
-    count = len(figure.drawings)
+def laid_out(figure: Figure, width: float, height: float, numbers: range, columns: list[int]) -> list[list[Picture]]:
+    """Some pictures of a figure in rows, in an area of this size with labels."""
+    count = len(numbers)
     label = LABEL if figure.labels else 0.0
-    rows = rows_of(count, figure.columns or best_columns(count, width, height))
-    tall = (height - GAP * (len(rows) - 1)) / len(rows) - label
+    rows = columns if len(columns) > 1 else rows_of(count, (columns or [best_columns(count, width, height)])[0])
+    # A picture that has a row to itself, above or below rows of several, is the larger one.
+    shares = [1.6 if of_row == 1 and max(rows) > 1 else 1.0 for of_row in rows]
+    room = height - GAP * (len(rows) - 1) - label * len(rows)
     laid, at = [], 0
-    for columns in rows:
-        wide = (width - GAP * (columns - 1)) / columns
+    for of_row, share in zip(rows, shares):
+        wide, tall = (width - GAP * (of_row - 1)) / of_row, room * share / sum(shares)
         row = []
-        for drawing in figure.drawings[at : at + columns]:
-            label_text = figure.labels[at] if figure.labels else ""
-            row.append(Picture(drawing, label_text, f"{figure.anchor}-picture-{at + 1}", wide, tall, ground=figure.ground))
-            at += 1
+        for number in numbers[at : at + of_row]:
+            text = figure.labels[number] if figure.labels else ""
+            row.append(
+                Picture(figure.drawings[number], text, f"{figure.anchor}-picture-{number + 1}", wide, tall, ground=figure.ground)
+            )
+        at += of_row
         laid.append(row)
-    if figure.step:
-        step, of_width, of_height = figure.step
-        scale = min(min(each.width / of_width, each.height / of_height) for row in laid for each in row)
-        for row in laid:
-            for each in row:
-                each.step = step * scale
     return laid
+
+
+def pages_of(figure: Figure, width: float, height: float, second: float = 0.0) -> list[list[list[Picture]]]:
+    """The rows of the first page and, if some of the pictures are on a second one, of that."""
+    count, turn = len(figure.drawings), figure.turn or len(figure.drawings)
+    if not second or turn == count:
+        return [laid_out(figure, width, height, range(count), figure.columns)]
+    rows, at = figure.columns, 0
+    while len(rows) > 1 and sum(rows[:at]) < turn:
+        at += 1
+    return [
+        laid_out(figure, width, height, range(turn), rows[:at] or rows),
+        laid_out(figure, width, second, range(turn, count), rows[at:] or rows),
+    ]
+
+
+def margin_of(picture: Picture) -> float:
+    return 0.09 * min(picture.width, picture.height)
 
 
 def is_lit(pattern: Pattern, drawing: Drawing) -> bool:
@@ -96,17 +113,45 @@ class Studio:
             return
         lit = is_lit(pattern, picture.drawing)
         picture.file = self.folder / f"{picture.anchor}.{'png' if lit else 'pdf'}"
-        margin = 0.09 * min(picture.width, picture.height)
+        margin = margin_of(picture)
         options = [*picture.drawing.options, "--size", f"{picture.width:.3f}x{picture.height:.3f}mm", "--margin", f"{margin:.3f}mm"]
         if lit:
             options += ["--dpi", str(DPI)]
         if picture.step:
             options += ["--step", f"{picture.step:.4f}mm"]
+        if stroke := self.stroke(picture, pattern):
+            options += ["--set", f"stroke={stroke}"]
         if picture.ground:
             options += ["--set", f"ground={picture.ground}"]
         problem = self.program.makes("draw", pattern.path, picture.file, *options)
         if problem:
             raise ValueError(f"{pattern.name} {' '.join(picture.drawing.options)} cannot be drawn: {problem}")
+
+    def fitting_step(self, picture: Picture) -> float:
+        """The length of a step with which a drawing in the plane fills its picture, in millimetres; 0 in space."""
+        box = dict(self.report("measure", picture.drawing)).get("ink", "none").split()
+        if len(box) != 4:
+            return 0.0
+        wide, tall = float(box[2]) - float(box[0]), float(box[3]) - float(box[1])
+        room = -2 * margin_of(picture)
+        return min((side + room) / max(size, 1e-9) for side, size in ((picture.width, wide), (picture.height, tall)))
+
+    def set_one_scale(self, figure: Figure, pictures: list[Picture]) -> None:
+        step = min(map(self.fitting_step, pictures))
+        if step == 0 and figure.step:
+            of_step, width, height = figure.step
+            step = of_step * min(min(each.width / width, each.height / height) for each in pictures)
+        for each in pictures:
+            each.step = step
+
+    def stroke(self, picture: Picture, pattern: Pattern) -> str:
+        """A thinner stroke, if that of the pattern is a part of a step which is long in this picture; or ""."""
+        match = re.fullmatch(r"([0-9.]+) step\b *(.*)", pattern.keys.get("stroke", ""))
+        if not match or "view" in pattern.keys or "!" in pattern.text or picture.drawing.is_of_rules:
+            return ""
+        most = THICKEST * min(picture.width, picture.height)
+        step = picture.step or self.fitting_step(picture)
+        return f"{most:.3f}mm {match[2]}".strip() if float(match[1]) * step > most else ""
 
     def make_all(self, pictures: list[Picture], threads: int) -> None:
         # The program uses threads of its own only for pictures in light, which come first as they take longest.

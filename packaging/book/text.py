@@ -6,7 +6,7 @@ from pathlib import Path
 from figures import Document, Drawing, Figure, drawings_of
 from markup import escaped, plain
 from patterns import Pattern
-from plates import Picture, Studio, laid_out
+from plates import Picture, Studio, pages_of
 from system import readable, system
 
 HERE = Path(__file__).resolve().parent
@@ -14,10 +14,12 @@ HERE = Path(__file__).resolve().parent
 WIDTH = 164.0
 PAGE_BOTTOM = 274.0
 HALF_WIDTH, HALF_HEIGHT = 78.0, 103.0
-OPENER = (210.0, 148.0)
+PAGE_WIDTH, PAGE_HEIGHT = 210.0, 297.0
+OPENER_GAP, OPENER_MARGIN = 13.0, 24.0  # between picture and title; below the text
 COVER = (210.0, 212.0)
 COVER_DRAWING = "anklets-of-krishna"
-LONGEST_WORD, LONGEST_INTERPRETATION = 420, 330  # characters
+LONGEST_WORD, LONGEST_INTERPRETATION = 210, 70  # characters of a word; of a production for drawing
+NUMBERS = dict(enumerate("no one two three four five six seven eight nine ten eleven twelve".split()))
 TITLE = "Figures of L-Systems"
 SUBTITLE = "Five documents, drawn again from their productions"
 
@@ -30,7 +32,7 @@ def prose(line: str) -> str:
 
 
 def operators(text: str) -> str:
-    for plain_form, printed in (("<=", "≤"), (">=", "≥"), ("-", "−"), ("*", "∗")):
+    for plain_form, printed in (("<=", "≤"), (">=", "≥"), ("-", "−")):
         text = text.replace(plain_form, printed)
     return text
 
@@ -38,7 +40,7 @@ def operators(text: str) -> str:
 def word(text: str, most: int = LONGEST_WORD) -> str:
     """The HTML of a word or a condition, which may break anywhere; a long one is cut."""
     if not text:
-        return "<code>ε</code>"
+        return "ε"
     if len(text) > most:
         text = text[: most - 20].rstrip() + " …"
     return f"<code>{escaped(operators(text))}</code>"
@@ -53,6 +55,9 @@ def steps_of(figure: Figure, pattern: Pattern) -> str:
     if len(numbers) > 2 and numbers == list(range(numbers[0], numbers[-1] + 1)):
         return f"{numbers[0]} to {numbers[-1]}"
     return ", ".join(map(str, numbers))
+
+
+Plates = dict[str, list[list[list[Picture]]]]  # by figure: pages, rows, pictures
 
 
 class Facts:
@@ -72,6 +77,8 @@ class Facts:
         if "cells" in rows:
             return " · ".join(f"{rows[name]} {'outer edges' if name == 'outer' else name}" for name in ("cells", "edges", "vertices", "outer") if name in rows)
         found = [f"{readable('symbols', rows.get('symbols', ''))} symbols"]
+        if self.patterns[drawing.pattern].kind == "words":  # are lettered or schematic
+            return found[0]
         if rows.get("drawn", "0") != "0":
             found.append(f"{readable('drawn', rows['drawn'])} segments")
         elif rows.get("moves", "0") != "0":
@@ -90,9 +97,9 @@ class Facts:
         if kind not in ("kolams", "tilings") or "--set" in drawing.options:
             return ""
         rows = self.rows("kolam" if kind == "kolams" else "tiling", drawing)
-        names = ("kolam", "crossings", "touching", "diagram") if kind == "kolams" else ("tiling", "edges", "vertices")
         parts = [rows["kolam" if kind == "kolams" else "tiling"].removeprefix("yes: ")]
-        parts += [f"{name} {rows[name]}" for name in names[1:] if name in rows and rows[name] != "0"]
+        if rows.get("crossings", "0") != "0":
+            parts.append(f"crossings {rows['crossings']}")
         if "symmetry" in rows:
             parts.append(f"symmetry {rows['symmetry'].partition(' about')[0]}")
         if rows.get("exact") == "yes":
@@ -113,13 +120,15 @@ class Book:
                 if before.is_half and after.is_half and before.anchor not in self.second_halves:
                     self.second_halves.add(after.anchor)
         cover = Picture(drawings_of(COVER_DRAWING)[0], "", "cover-picture", *COVER)
-        self.extra = {"cover-picture": cover}
-        for number, document in enumerate(documents, 1):
-            anchor = f"document-{number}-picture"
-            self.extra[anchor] = Picture(document.cover, "", anchor, *OPENER)
+        self.cover = cover
+        # Their heights are what the text leaves of the page.
+        self.openers = {
+            number: Picture(document.cover, "", f"document-{number}-picture", PAGE_WIDTH, 100.0)
+            for number, document in enumerate(documents, 1)
+        }
 
     def extra_pictures(self) -> list[Picture]:
-        return list(self.extra.values())
+        return [self.cover, *self.openers.values()]
 
     # A picture takes its place as an empty box, below which the drawing is put; pixels and piano rolls are images.
     def box(self, picture: Picture) -> str:
@@ -129,7 +138,7 @@ class Book:
             image = f'<img src="{picture.file.resolve().as_uri()}" style="{size}" alt="">'
         return f'<div class="picture" id="{picture.anchor}" style="{size}">{image}</div>'
 
-    def plate(self, figure: Figure, rows: list[list[Picture]]) -> str:
+    def plate(self, figure: Figure, rows: list[list[Picture]], name: str = "plate") -> str:
         html = ""
         for row in rows:
             cells = "".join(
@@ -139,7 +148,7 @@ class Book:
                 for each in row
             )
             html += f'<table class="row"><tr>{cells}</tr></table>'
-        return f'<div class="plate" id="{figure.anchor}-plate">{html}</div>'
+        return f'<div class="plate" id="{figure.anchor}-{name}">{html}</div>'
 
     def measures(self, figure: Figure, name: str) -> str:
         own = [each for each in figure.drawings if each.pattern == name and not each.is_played and not each.is_of_rules]
@@ -152,26 +161,58 @@ class Book:
 
     def system(self, figure: Figure, name: str) -> str:
         pattern = self.patterns[name]
-        html = re.sub(r"<caption.*?</caption>", "", system(pattern, steps_of(figure, pattern), word))
-        if pattern.defines:
-            html = html.replace('class="system"', 'class="system named"')
+        most = 1200 if figure.anchor in self.spreads else LONGEST_WORD
+        html = system(pattern, steps_of(figure, pattern), lambda text: word(text, most))
+        rows = re.findall(r"<tr.*?</tr>", html)
         # n and δ stand in one row.
-        html = re.sub(
-            r'<th scope="row">n</th><td>(.*?)</td></tr><tr><th scope="row">δ</th><td>(.*?)</td>',
-            r'<th scope="row">n, δ</th><td>\1, \2</td>', html,
-        )  # fmt: skip
+        if len(rows) > 1 and ">δ</th>" in rows[1]:
+            cells = [re.sub(r"<[^>]*>", "", each.partition("<td>")[2]) for each in rows[:2]]
+            rows[:2] = [f'<tr><th scope="row">n, δ</th><td>{cells[0]}, {cells[1]}</td></tr>']
+        classes = "system"
+        if pattern.defines:
+            classes += " named"
+        constants = self.constants(figure, pattern)
+        if constants:
+            defined = {f">{escaped(each)}</th>" for each, _, _ in pattern.defines}
+            rows = [row for row in rows if not any(each in row for each in defined)]
         # Productions that draw organs and cells are the pattern's own, and often long.
-        head, mark, drawn = html.partition('<tr class="section"><th colspan="2" scope="rowgroup">For drawing')
-        count = len([each for rules in pattern.rules if rules.name == "For drawing" for each in rules.productions])
-        if mark and (figure.is_half or len(re.sub(r"<[^>]*>", "", drawn)) > LONGEST_INTERPRETATION):
-            number = {1: "one production", 2: "two productions", 3: "three productions", 4: "four productions"}.get(count, f"{count} productions")
-            html = f'{head}<tr><th></th><td class="more">and {number} for drawing, in the pattern file</td></tr></tbody></table>'
-        return html
+        for at, row in enumerate(rows):
+            if ">For drawing<" in row:
+                drawn = rows[at + 1 :]
+                if figure.is_half or any(len(re.sub(r"<[^>]*>", "", each)) > LONGEST_INTERPRETATION for each in drawn):
+                    number = NUMBERS.get(len(drawn), str(len(drawn)))
+                    plural = "s" if len(drawn) > 1 else ""
+                    rows[at:] = [f'<tr><th></th><td class="more">and {number} production{plural} for drawing, in the pattern file</td></tr>']
+                break
 
-    def figure(self, figure: Figure, plates: dict[str, list[list[Picture]]]) -> str:
-        rows = plates.get(figure.anchor, [])
-        if figure.is_half and not rows:
-            rows = laid_out(figure, HALF_WIDTH, HALF_HEIGHT)
+        def table(part: list[str]) -> str:
+            return f'<table class="{classes}"><tbody>{"".join(part)}</tbody></table>'
+
+        longest = max(len(re.sub(r"<[^>]*>", "", row)) for row in rows)
+        if len(rows) > 14 and longest < 36 and len(figure.systems) == 1:
+            half = (len(rows) + 1) // 2
+            return f'<table class="twice"><tr><td>{table(rows[:half])}</td><td>{table(rows[half:])}</td></tr></table>' + constants
+        return table(rows) + constants
+
+    def constants(self, figure: Figure, pattern: Pattern) -> str:
+        """A table of the constants that the variants in a figure set, if there are several."""
+        shown = [each.options[each.options.index("--variant") + 1] for each in figure.drawings if each.pattern == pattern.name and "--variant" in each.options]
+        variants = [(name, dict(re.findall(r"(\S+) = ([^,]+)", values))) for name, values in pattern.variants if name in shown]
+        names = [name for name, _, _ in pattern.defines if any(name in values for _, values in variants)]
+        if len(variants) < 2 or not names:
+            return ""
+        start = {name: value for name, value, _ in pattern.defines}
+        head = "".join(f"<th>{escaped(name)}</th>" for name in names)
+        body = "".join(
+            f"<tr><th>{escaped(variant)}</th>" + "".join(f"<td>{escaped(operators(values.get(name, start[name])))}</td>" for name in names) + "</tr>"
+            for variant, values in variants
+        )
+        return f'<table class="constants"><tr><th></th>{head}</tr>{body}</table>'
+
+    def figure(self, figure: Figure, plates: Plates) -> str:
+        pages = plates.get(figure.anchor, [[]])
+        if figure.is_half and figure.anchor not in plates:
+            pages = pages_of(figure, HALF_WIDTH, HALF_HEIGHT)
         caption = f"<p>{prose(figure.caption)}</p>"
         remarks = ""
         if figure.note:
@@ -180,14 +221,18 @@ class Book:
         if figure.without:
             remarks += f'<p class="note"><b>Left out</b> {prose(figure.without)}.</p>'
         names = figure.systems or [figure.drawings[0].pattern]
-        spread = " spread" if figure.anchor in self.spreads else ""
+        spread = figure.anchor in self.spreads
         words_end = f'<div id="{figure.anchor}-words"></div>'
         if len(figure.systems) > 1 or spread:
             blocks = "".join(
                 f'<div class="block"><h3>{escaped(self.patterns[name].title)}</h3>{self.system(figure, name)}{self.measures(figure, name)}</div>'
                 for name in figure.systems
             )
-            body = f'<div class="words across">{caption}{remarks}</div>{words_end}<div class="blocks of-{min(len(names), 3)}{spread}">{blocks}</div>'
+            body = f'<div class="words across">{caption}{remarks}</div>{words_end}'
+            if spread:
+                body += f'<div class="spread"><p class="continued"><span class="number">{escaped(figure.number)}</span> continued</p>'
+                body += f'{self.plate(figure, pages[1] if len(pages) > 1 else [], "second")}</div>'
+            body += f'<div class="blocks of-{min(len(names), 3)}">{blocks}</div>'
         else:
             left = f'<div class="words">{caption}{remarks}</div>'
             right = self.system(figure, names[0]) if figure.systems else ""
@@ -206,39 +251,42 @@ class Book:
         classes = "figure"
         if figure.is_half:
             classes += " half second" if figure.anchor in self.second_halves else " half"
-            pair = f'<table class="pair"><tr><td class="side">{self.plate(figure, rows)}</td><td class="right">{body}</td></tr></table>'
+            pair = f'<table class="pair"><tr><td class="side">{self.plate(figure, pages[0])}</td><td class="right">{body}</td></tr></table>'
             return f'<article class="{classes}">{head}{pair}{end}</article>'
-        return f'<article class="{classes}">{head}{self.plate(figure, rows)}{body}{end}</article>'
+        return f'<article class="{classes}">{head}{self.plate(figure, pages[0])}{body}{end}</article>'
 
     def page_of(self, pages: dict[str, int], anchor: str) -> str:
         return str(pages.get(anchor, 100))
 
     def contents(self, pages: dict[str, int]) -> str:
-        html = ""
-
-        def line(anchor: str, number: str, title: str, kind: str) -> str:
+        def line(anchor: str, number: str, title: str) -> str:
             return (
-                f'<tr class="{kind}"><td class="number">{escaped(number)}</td><td><a href="#{anchor}">{prose(title)}</a></td>'
+                f'<tr><td class="number">{escaped(number)}</td><td><a href="#{anchor}">{prose(title)}</a></td>'
                 f'<td class="page"><a href="#{anchor}">{self.page_of(pages, anchor)}</a></td></tr>'
             )
 
-        for number, document in enumerate(self.documents, 1):
-            rows, chapter = "", ""
+        parts = []
+        for at, document in enumerate(self.documents, 1):
+            rows, chapter = "", document.name
             for figure in document.figures:
                 if figure.left_out:
                     continue
-                if figure.chapter and figure.chapter != chapter:
+                if figure.chapter != chapter:
                     chapter = figure.chapter
-                    rows += f'<tr class="chapter"><td></td><td colspan="2">{escaped(chapter)}</td></tr>'
-                rows += line(figure.anchor, figure.number.removeprefix("Figure "), figure.title, "entry")
-            html += (
-                f'<h3><a href="#document-{number}">{prose(document.name)}</a> <span class="page">{self.page_of(pages, f"document-{number}")}</span></h3>'
+                    rows += f'<tr class="part"><td></td><td colspan="2">{escaped(chapter)}</td></tr>'
+                number = figure.number.removeprefix("Figure ").removeprefix("Appendix ").replace("Section ", "§ ")
+                rows += line(figure.anchor, number, figure.title)
+            parts.append(
+                f'<h3><span class="page">{self.page_of(pages, f"document-{at}")}</span><a href="#document-{at}">{prose(document.name)}</a></h3>'
                 f"<table>{rows}</table>"
             )
-        html += "<h3>At the end</h3><table>"
-        for anchor, title in (("left-out", "What is left out, and why"), ("remade", "What was mended or reconstructed"), ("index", "Index")):
-            html += line(anchor, "", title, "entry")
-        return f'<section class="contents"><h1 id="contents">Contents</h1><div class="columns">{html}</table></div></section>'
+        back = (("left-out", "What is left out, and why"), ("remade", "What was mended or reconstructed"), ("index", "Index"))
+        parts.append("<h3>At the end</h3><table>" + "".join(line(anchor, "", title) for anchor, title in back) + "</table>")
+        # The first document has more figures than the others together, and a page to itself.
+        return (
+            f'<section class="contents"><h1 id="contents">Contents</h1><div class="columns">{parts[0]}</div>'
+            f'<div class="columns rest">{"".join(parts[1:])}</div></section>'
+        )
 
     def opener(self, number: int, document: Document) -> str:
         about = "".join(f"<p>{prose(' '.join(each.split()))}</p>" for each in document.about.split("\n\n"))
@@ -246,9 +294,9 @@ class Book:
         missing = len(document.figures) - shown
         count = f"{shown} figures" + (f"; {missing} left out" if missing else "")
         return (
-            f'<section class="opener"><div class="bleed">{self.box(self.extra[f"document-{number}-picture"])}</div>'
+            f'<section class="opener"><span class="document">{prose(document.short)}</span><div class="bleed">{self.box(self.openers[number])}</div>'
             f'<div class="below"><h1 id="document-{number}">{prose(document.name)}</h1>'
-            f'<p class="reference">{prose(document.reference)}</p><div class="about">{about}</div><p class="count">{count}</p></div></section>'
+            f'<p class="reference">{prose(document.reference)}</p><div class="about">{about}</div><p class="count">{count}</p><div id="document-{number}-end"></div></div></section>'
         )
 
     def left_out(self) -> str:
@@ -287,46 +335,44 @@ class Book:
     def index(self, pages: dict[str, int]) -> str:
         entries: dict[str, set[str]] = {}
         for figure in self.figures:
-            titles = {self.patterns[each.pattern].title for each in figure.drawings} | {figure.title}
-            for term in titles | set(figure.index):
+            for term in figure.index:
                 entries.setdefault(plain(term), set()).add(figure.anchor)
             for each in figure.drawings:
-                entries.setdefault(f"`{each.pattern}", set()).add(figure.anchor)
+                entries.setdefault(f"{plain(self.patterns[each.pattern].title)}`{each.pattern}", set()).add(figure.anchor)
         html, letter = "", ""
-        for term in sorted(entries, key=lambda each: (each.lstrip("`").casefold(), each)):
-            first = term.lstrip("`")[0].upper()
-            first = {"Ś": "S"}.get(first, first)
+        for term in sorted(entries, key=lambda each: (each.casefold(), each)):
+            first = term[0].upper()
             if first != letter:
                 letter = first
                 html += f'<h3>{escaped(letter)}</h3>'
             # Figures that share a page are listed once.
             numbers = {pages.get(anchor, 100): anchor for anchor in sorted(entries[term], reverse=True)}
             links = ", ".join(f'<a href="#{anchor}">{number}</a>' for number, anchor in sorted(numbers.items()))
-            name = f"<code>{escaped(term[1:])}</code>" if term.startswith("`") else prose(term)
-            html += f"<p>{name}, {links}</p>"
+            title, _, name = term.partition("`")
+            html += f"<p>{prose(title)}{f' <code>{escaped(name)}</code>' if name else ''}, {links}</p>"
         return (
             '<section class="index"><h1 id="index">Index</h1><p class="hint">Names in <code>this type</code> are those of pattern files.</p>'
             f'<div class="columns">{html}</div></section>'
         )
 
-    def html(self, plates: dict[str, list[list[Picture]]], pages: dict[str, int]) -> str:
+    def html(self, plates: Plates, pages: dict[str, int]) -> str:
         """The whole book. Without `plates` the pictures of figures have no height; without `pages` numbers of pages are
         placeholders of the same width."""
         ground = self.patterns[COVER_DRAWING].keys["ground"]
         references = "".join(f"<li>{prose(each.reference)}</li>" for each in self.documents)
         parts = (HERE / "front.html").read_text()
         for name, value in {
-            "cover": self.box(self.extra["cover-picture"]), "ground": ground, "title": TITLE, "subtitle": SUBTITLE,
+            "cover": self.box(self.cover), "ground": ground, "title": TITLE, "subtitle": SUBTITLE,
             "count": str(len(self.figures)), "references": references, "version": self.version,
         }.items():  # fmt: skip
             parts = parts.replace("{{" + name + "}}", value)
         body = parts.replace("{{contents}}", self.contents(pages))
         for number, document in enumerate(self.documents, 1):
-            body += f'<span class="document">{prose(document.short)}</span>' + self.opener(number, document)
+            body += self.opener(number, document)
             body += "".join(self.figure(each, plates) for each in document.figures if not each.left_out)
         body += self.left_out() + self.remade(pages) + self.index(pages)
         style = (HERE / "style.css").read_text()
         return (
-            f'<!doctype html><html lang="en"><head><meta charset="utf-8"><title>{TITLE}</title><style>{style}</style></head>'
+            f'<!doctype html><html lang="en"><head><meta charset="utf-8"><meta name="author" content="Sikku"><title>{TITLE}</title><style>{style}</style></head>'
             f"<body>{body}</body></html>"
         )
