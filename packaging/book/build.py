@@ -29,8 +29,15 @@ POINT = 72 / 25.4  # of a millimetre
 LEAST_PLATE = 92.0  # mm; figures whose text leaves less have their systems on a second page
 
 
-def rendered(html: str) -> weasyprint.Document:
-    return weasyprint.HTML(string=html, base_url=str(HERE)).render()
+def rendered(html: str, folder: Path) -> weasyprint.Document:
+    """The pages. Images have addresses `picture:NAME`, for the PDF depends on addresses, and the folder is a scratch one."""
+
+    def fetch(address: str) -> dict:
+        name = address.removeprefix("picture:")
+        kind = "image/svg+xml" if name.endswith(".svg") else "image/png"
+        return {"string": (folder / name).read_bytes(), "mime_type": kind}
+
+    return weasyprint.HTML(string=html, url_fetcher=fetch).render()
 
 
 def places_of(document: weasyprint.Document) -> dict[str, tuple[int, float, float]]:
@@ -57,16 +64,26 @@ def insert_pictures(pdf: pikepdf.Pdf, pictures: list[Picture], places: dict[str,
             continue
         number, x, y = places[picture.anchor]
         page = pdf.pages[number - 1]
-        height = float(page.mediabox[3])
-        left, top = x * POINT, height - y * POINT
-        box = pikepdf.Rectangle(left, top - picture.height * POINT, left + picture.width * POINT, top)
         with pikepdf.open(picture.file) as drawing:
-            page.add_underlay(drawing.pages[0], box)
+            form = pdf.copy_foreign(drawing.pages[0].as_form_xobject())
+        # add_underlay() would invent a name, another one in each run.
+        name = pikepdf.Name(f"/{picture.anchor}")
+        if "/XObject" not in page.resources:
+            page.resources.XObject = pikepdf.Dictionary()
+        page.resources.XObject[name] = form
+        bottom = float(page.mediabox[3]) - (y + picture.height) * POINT
+        wide, tall = (size * POINT / float(side) for size, side in zip((picture.width, picture.height), list(form.BBox)[2:]))
+        place = f"q {wide:.6f} 0 0 {tall:.6f} {x * POINT:.4f} {bottom:.4f} cm {name} Do Q"
+        page.contents_add(place.encode(), prepend=True)
+
 
 
 def build(output: Path, program: Program, version: str, only: list[str], scratch: Path) -> str:
     documents, patterns = figures.read()
     if only:
+        known = {figure.number for document in documents for figure in document.figures}
+        if unknown := [each for each in only if each not in known]:
+            raise ValueError(f"there is no figure '{unknown[0]}'")
         for document in documents:
             document.figures = [each for each in document.figures if each.number in only]
         documents = [each for each in documents if each.figures]
@@ -75,9 +92,9 @@ def build(output: Path, program: Program, version: str, only: list[str], scratch
     shown = book.figures
 
     whole = [each for each in shown if not each.is_half]
-    places = places_of(rendered(book.html({}, {})))
+    places = places_of(rendered(book.html({}, {}), scratch))
     book.spreads = {each.anchor for each in whole if each.turn or room_for(each, places, "plate", "end") < LEAST_PLATE}
-    places = places_of(rendered(book.html({}, {}))) if book.spreads else places
+    places = places_of(rendered(book.html({}, {}), scratch)) if book.spreads else places
     for number, picture in book.openers.items():
         _, _, top = places[f"document-{number}"]
         _, _, bottom = places[f"document-{number}-end"]
@@ -102,7 +119,7 @@ def build(output: Path, program: Program, version: str, only: list[str], scratch
     # The pictures leave every text on its page, unless something does not fit.
     while True:
         pages = {name: page for name, (page, _, _) in places.items()}
-        document = rendered(book.html(plates, pages))
+        document = rendered(book.html(plates, pages), scratch)
         places = places_of(document)
         if all(places[name][0] == page for name, page in pages.items()):
             break

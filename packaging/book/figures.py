@@ -189,11 +189,11 @@ def read_figure(entry: dict, chapter: str, patterns: dict[str, Pattern]) -> Figu
     return figure
 
 
-def read() -> tuple[list[Document], dict[str, Pattern]]:
+def read(file: Path = FILE) -> tuple[list[Document], dict[str, Pattern]]:
     """The documents, and all bundled patterns by name. Raises ValueError for entries that cannot be drawn."""
     patterns = {each.name: each for group in read_all(ROOT / "patterns").values() for each in group}
     documents = []
-    for at, entry in enumerate(tomllib.loads(FILE.read_text())["document"]):
+    for at, entry in enumerate(tomllib.loads(file.read_text())["document"]):
         figures = []
         chapter = entry["name"]
         for number, each in enumerate(entry["figure"], 1):

@@ -135,7 +135,7 @@ class Book:
         size = f"width:{picture.width:.3f}mm;height:{picture.height:.3f}mm"
         image = ""
         if picture.file and picture.file.suffix != ".pdf":
-            image = f'<img src="{picture.file.resolve().as_uri()}" style="{size}" alt="">'
+            image = f'<img src="picture:{picture.file.name}" style="{size}" alt="">'
         return f'<div class="picture" id="{picture.anchor}" style="{size}">{image}</div>'
 
     def plate(self, figure: Figure, rows: list[list[Picture]], name: str = "plate") -> str:
