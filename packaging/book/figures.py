@@ -16,7 +16,7 @@ FILE = HERE / "figures.toml"
 # Sentences of a pattern's description that say what was mended or reconstructed.
 REMADE = re.compile(r"\b(Mended|mended|[Rr]econstruct\w*|guess\w*|does not (say|tell)|text leaves? (it )?open|leaves open)\b")
 FIGURE_KEYS = {
-    "number", "chapter", "title", "draw", "gallery", "labels", "systems", "columns", "turn", "one_scale", "ground", "half", "caption",
+    "number", "chapter", "title", "draw", "gallery", "labels", "systems", "columns", "turn", "one_scale", "set", "half", "caption",
     "note", "without", "left_out", "index",
 }  # fmt: skip
 
@@ -50,7 +50,7 @@ class Figure:
     turn: int = 0  # pictures after these are on the second page, above the systems; 0: all are on the first
     has_one_scale: bool = False
     step: tuple[float, float, float] | None = None  # mm, on a picture of this width and height in mm: of a gallery in space
-    ground: str = ""
+    keys: list[str] = field(default_factory=list)  # KEY=VALUE for all pictures
     is_half: bool = False
     caption: str = ""
     note: str = ""
@@ -150,7 +150,7 @@ def read_figure(entry: dict, chapter: str, patterns: dict[str, Pattern]) -> Figu
     figure = Figure(
         entry["number"], entry.get("title", ""), entry.get("chapter", chapter), turn=entry.get("turn", 0),
         columns=columns if isinstance(columns, list) else [columns],
-        ground=entry.get("ground", ""), is_half=entry.get("half", False), caption=typographic(entry.get("caption", "")),
+        keys=entry.get("set", []), is_half=entry.get("half", False), caption=typographic(entry.get("caption", "")),
         note=typographic(entry.get("note", "")), without=entry.get("without", ""), left_out=entry.get("left_out", ""),
         index=entry.get("index", []),
     )  # fmt: skip

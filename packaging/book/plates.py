@@ -27,7 +27,7 @@ class Picture:
     width: float
     height: float
     step: float = 0.0  # mm; 0: the drawing fills the picture
-    ground: str = ""
+    keys: tuple[str, ...] = ()  # KEY=VALUE
     file: Path | None = None
 
 
@@ -64,7 +64,7 @@ def laid_out(figure: Figure, width: float, height: float, numbers: range, column
         for number in numbers[at : at + of_row]:
             text = figure.labels[number] if figure.labels else ""
             row.append(
-                Picture(figure.drawings[number], text, f"{figure.anchor}-picture-{number + 1}", wide, tall, ground=figure.ground)
+                Picture(figure.drawings[number], text, f"{figure.anchor}-picture-{number + 1}", wide, tall, keys=tuple(figure.keys))
             )
         at += of_row
         laid.append(row)
@@ -121,8 +121,8 @@ class Studio:
             options += ["--step", f"{picture.step:.4f}mm"]
         if stroke := self.stroke(picture, pattern):
             options += ["--set", f"stroke={stroke}"]
-        if picture.ground:
-            options += ["--set", f"ground={picture.ground}"]
+        for each in () if picture.drawing.is_of_rules else picture.keys:
+            options += ["--set", each]
         problem = self.program.makes("draw", pattern.path, picture.file, *options)
         if problem:
             raise ValueError(f"{pattern.name} {' '.join(picture.drawing.options)} cannot be drawn: {problem}")
@@ -147,7 +147,7 @@ class Studio:
     def stroke(self, picture: Picture, pattern: Pattern) -> str:
         """A thinner stroke, if that of the pattern is a part of a step which is long in this picture; or ""."""
         match = re.fullmatch(r"([0-9.]+) step\b *(.*)", pattern.keys.get("stroke", ""))
-        if not match or "view" in pattern.keys or "!" in pattern.text or picture.drawing.is_of_rules:
+        if not match or any(each.startswith("stroke=") for each in picture.keys) or "view" in pattern.keys or "!" in pattern.text or picture.drawing.is_of_rules:
             return ""
         most = THICKEST * min(picture.width, picture.height)
         step = picture.step or self.fitting_step(picture)

@@ -60,6 +60,19 @@ def steps_of(figure: Figure, pattern: Pattern) -> str:
 Plates = dict[str, list[list[list[Picture]]]]  # by figure: pages, rows, pictures
 
 
+def without_article(term: str) -> str:
+    return re.sub(r"^(A|An|The) (?=\w)", "", term)
+
+
+def kind_of_note(note: str) -> tuple[str, str]:
+    """What a note is about, and its text without the word that says so."""
+    mended = re.match(r"Mended:? ", note)
+    remade = re.match(r"(A reconstruction|Reconstructions|Reconstructed)(, for|,|:)? ", note)
+    kind = "Mended" if mended else "Reconstructed" if remade or "econstruct" in note or "guess" in note else "Note"
+    rest = note[(mended or remade).end() :] if mended or remade else note
+    return kind, rest[:1].upper() + rest[1:]
+
+
 class Facts:
     """Reports of the program on what figures show, as lines of text. Each is made once."""
 
@@ -87,7 +100,7 @@ class Facts:
         numbers = [] if box == "none" else [float(each) for each in box.split()]
         if len(numbers) in (4, 6) and any(numbers):
             half = len(numbers) // 2
-            found.append(" × ".join(f"{high - low:,.4g}" for low, high in zip(numbers[:half], numbers[half:])) + " steps in size")
+            found.append(" × ".join(f"{round(high - low, 9):,.4g}" for low, high in zip(numbers[:half], numbers[half:])) + " steps in size")
         if rows.get("closed") == "yes" and rows.get("drawn") != "0":
             found.append("closed")
         return " · ".join(found)
@@ -152,8 +165,7 @@ class Book:
 
     def measures(self, figure: Figure, name: str) -> str:
         own = [each for each in figure.drawings if each.pattern == name and not each.is_played and not each.is_of_rules]
-        whole = [each for each in own if "--set" not in each.options] or own or [Drawing(name)]
-        drawing = whole[-1]
+        drawing = [Drawing(name), *(each for each in own if "--set" not in each.options)][-1]
         lines = [f'<code class="name">{escaped(name)}</code> {escaped(self.facts.measured(drawing))}']
         if certificate := self.facts.certificate(drawing):
             lines.append(f"<b>Certified</b> {prose(certificate)}")
@@ -216,8 +228,8 @@ class Book:
         caption = f"<p>{prose(figure.caption)}</p>"
         remarks = ""
         if figure.note:
-            note = re.sub(r"^Mended: (.)", lambda match: match[1].upper(), figure.note)
-            remarks += f'<p class="note"><b>{"Mended" if figure.note.startswith("Mended") else "Reconstructed" if "econstruct" in note or "guess" in note else "Note"}</b> {prose(note)}</p>'
+            kind, note = kind_of_note(figure.note)
+            remarks += f'<p class="note"><b>{kind}</b> {prose(note)}</p>'
         if figure.without:
             remarks += f'<p class="note"><b>Left out</b> {prose(figure.without)}.</p>'
         names = figure.systems or [figure.drawings[0].pattern]
@@ -266,6 +278,7 @@ class Book:
             )
 
         parts = []
+        second = len(self.documents) // 2 + 1  # begins the second column of the other documents
         for at, document in enumerate(self.documents, 1):
             rows, chapter = "", document.name
             for figure in document.figures:
@@ -277,7 +290,7 @@ class Book:
                 number = figure.number.removeprefix("Figure ").removeprefix("Appendix ").replace("Section ", "§ ")
                 rows += line(figure.anchor, number, figure.title)
             parts.append(
-                f'<h3><span class="page">{self.page_of(pages, f"document-{at}")}</span><a href="#document-{at}">{prose(document.name)}</a></h3>'
+                f'<h3{" class=beside" if at == second + 1 else ""}><span class="page">{self.page_of(pages, f"document-{at}")}</span><a href="#document-{at}">{prose(document.name)}</a></h3>'
                 f"<table>{rows}</table>"
             )
         back = (("left-out", "What is left out, and why"), ("remade", "What was mended or reconstructed"), ("index", "Index"))
@@ -321,9 +334,9 @@ class Book:
             if entries:
                 rows += f"<h3>{prose(document.name)}</h3>"
             for figure in entries:
-                kind = "mended" if figure.note.startswith("Mended") else "reconstructed" if "econstruct" in figure.note else "see the note"
+                kind = kind_of_note(figure.note)[0].lower().replace("note", "see the note")
                 rows += (
-                    f'<p><a href="#{figure.anchor}">{escaped(figure.number)}, {prose(figure.title)}</a>: {kind}, '
+                    f'<p><a href="#{figure.anchor}">{escaped(figure.number)}, {prose(figure.title)}</a>: {kind},\u00a0'
                     f"{self.page_of(pages, figure.anchor)}</p>"
                 )
         return (
@@ -340,8 +353,8 @@ class Book:
             for each in figure.drawings:
                 entries.setdefault(f"{plain(self.patterns[each.pattern].title)}`{each.pattern}", set()).add(figure.anchor)
         html, letter = "", ""
-        for term in sorted(entries, key=lambda each: (each.casefold(), each)):
-            first = term[0].upper()
+        for term in sorted(entries, key=lambda each: (without_article(each).casefold(), each)):
+            first = without_article(term)[0].upper()
             if first != letter:
                 letter = first
                 html += f'<h3>{escaped(letter)}</h3>'
@@ -349,7 +362,7 @@ class Book:
             numbers = {pages.get(anchor, 100): anchor for anchor in sorted(entries[term], reverse=True)}
             links = ", ".join(f'<a href="#{anchor}">{number}</a>' for number, anchor in sorted(numbers.items()))
             title, _, name = term.partition("`")
-            html += f"<p>{prose(title)}{f' <code>{escaped(name)}</code>' if name else ''}, {links}</p>"
+            html += f"<p>{prose(title)}{f' <code>{escaped(name)}</code>' if name else ''},\u00a0{links}</p>"
         return (
             '<section class="index"><h1 id="index">Index</h1><p class="hint">Names in <code>this type</code> are those of pattern files.</p>'
             f'<div class="columns">{html}</div></section>'
