@@ -26,6 +26,7 @@ import pages
 import patterns as reading
 import png
 from markup import escaped, page, plain, relative, studio_link
+from program import Program
 from search import Index
 
 HERE = Path(__file__).resolve().parent
@@ -74,7 +75,7 @@ class Site:
         return sorted(str(each.relative_to(self.folder)) for each in self.folder.rglob("*") if each.is_file())
 
 
-def in_process(program: drawing.Program, folder: Path, pattern: reading.Pattern) -> drawing.Made:
+def in_process(program: Program, folder: Path, pattern: reading.Pattern) -> drawing.Made:
     # Each in a separate folder, because the names of scratch files are the same.
     with tempfile.TemporaryDirectory(dir=folder) as own:
         made = drawing.make(program, pattern, Path(own))
@@ -187,7 +188,7 @@ def manual_pages(site: Site, index: Index) -> None:
     site.write("manual/index.html", page("manual/index.html", "Manual – Sikku", body, about="The manual of Sikku."))
 
 
-def example(site: Site, program: drawing.Program, name: str, text: str, options: str) -> str:
+def example(site: Site, program: Program, name: str, text: str, options: str) -> str:
     """A pattern with its pictures, one for each number of `n=0,1,2` or `seed=2,3`."""
     match = re.fullmatch(r"(n|seed)=([0-9,]+)", options.strip())
     if not match:
@@ -213,7 +214,7 @@ def example(site: Site, program: drawing.Program, name: str, text: str, options:
     )
 
 
-def text_pages(site: Site, program: drawing.Program, index: Index) -> None:
+def text_pages(site: Site, program: Program, index: Index) -> None:
     """Pages of packaging/site/text. A code block that begins with ```lsys is a pattern, which is drawn."""
     for source in sorted((HERE / "text").glob("*.md")):
         markdown, examples = source.read_text(), []
@@ -239,7 +240,7 @@ def text_pages(site: Site, program: drawing.Program, index: Index) -> None:
             index.add(address, section.title, "" if section.level == 1 else document.title, text)
 
 
-def front(site: Site, program: drawing.Program, all_patterns: dict[str, list[reading.Pattern]], made: dict[str, drawing.Made],
+def front(site: Site, program: Program, all_patterns: dict[str, list[reading.Pattern]], made: dict[str, drawing.Made],
           context: pages.Context, version: str) -> None:  # fmt: skip
     by_name = {each.name: each for group in all_patterns.values() for each in group}
     files = site.folder / "pattern/files"
@@ -270,7 +271,7 @@ def front(site: Site, program: drawing.Program, all_patterns: dict[str, list[rea
     site.write("index.html", pages.front_page(three, example_text, "front_example.svg", heard, begin, total, version, context))
 
 
-def assets(site: Site, program: drawing.Program, index: Index) -> None:
+def assets(site: Site, program: Program, index: Index) -> None:
     for name in ("style.css", "site.js", "player.js", "search.js"):
         site.write(f"assets/{name}", (HERE / "assets" / name).read_bytes())
     site.write("assets/index.js", index.script())
@@ -395,7 +396,7 @@ def keys_of_language() -> dict[str, tuple[str, str, str]]:
 
 
 def build(site: Site, options: argparse.Namespace) -> None:
-    program = drawing.Program(options.program)
+    program = Program(options.program)
     all_patterns = reading.read_all(Path(options.patterns))
     files = site.folder / "pattern/files"
     files.mkdir(parents=True)

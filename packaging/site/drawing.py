@@ -4,7 +4,6 @@ Names of patterns do not contain '_', so files whose names contain it never repl
 """
 
 import re
-import subprocess
 import tempfile
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -12,6 +11,7 @@ from pathlib import Path
 import midi
 import png
 from patterns import Pattern
+from program import Program, table_of
 
 SIZE = 160  # mm; pictures are square
 PICTURE_BYTES = 150_000  # of a picture on the page of a pattern
@@ -20,31 +20,9 @@ THUMBNAIL_BYTES = 14_000
 THUMBNAIL_PIXELS = 320
 GROWTH_BYTES = 9_000
 DOWNLOAD_BYTES = 2_100_000  # larger files are not stored; the page shows the command that makes them
-SECONDS = 120
 
 # The kinds whose patterns have melodies; patterns of other kinds have one if they set keys of melodies.
 HEARD = ("kolams", "kolam-library", "curves", "melodies", "arrangements")
-
-
-class Program:
-    def __init__(self, path: str):
-        self.path = path
-
-    def run(self, *arguments: str | Path) -> subprocess.CompletedProcess:
-        try:
-            return subprocess.run(
-                [self.path, *map(str, arguments)], capture_output=True, text=True, timeout=SECONDS,
-                stdin=subprocess.DEVNULL,
-            )  # fmt: skip
-        except subprocess.TimeoutExpired:
-            return subprocess.CompletedProcess(arguments, 1, "", f"stopped after {SECONDS} s")
-
-    def makes(self, command: str, pattern: Path, output: Path, *options: str) -> str:
-        """Makes a file. Returns "", or the reason if it cannot be made."""
-        done = self.run("-q", command, pattern, "-o", output, *options)
-        if done.returncode == 0 and output.exists():
-            return ""
-        return done.stderr.strip() or f"exit status {done.returncode}"
 
 
 @dataclass
@@ -62,18 +40,6 @@ class Made:
     certificate: list[tuple[str, str]] = field(default_factory=list)
     melody: list[tuple[str, str]] = field(default_factory=list)
     problems: list[str] = field(default_factory=list)
-
-
-def table_of(report: str) -> list[tuple[str, str]]:
-    """The lines of a report after its heading: a name in the first ten columns, and a text."""
-    rows: list[tuple[str, str]] = []
-    for line in report.splitlines()[1:]:
-        match = re.match(r"([a-z][a-z ]*?)\s{2,}(.*)", line)
-        if match:
-            rows.append((match[1], match[2].strip()))
-        elif rows and line.startswith(" ") and line.strip():
-            rows[-1] = (rows[-1][0], rows[-1][1] + "; " + line.strip())
-    return rows
 
 
 def smaller_picture(program: Program, source: Path, folder: Path, name: str, svg: Path, most: int, pixels: int,

@@ -69,6 +69,7 @@ def typographic(text: str) -> str:
 
 COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
 DEFINE = re.compile(r"#?define\s+(\w+)\s*=?\s*(.*)")
+TEXT = re.compile(r"(title|source|description): (.*)")
 KEY = re.compile(r"([a-z][a-z ]*?)(?: (\S+))?:(?:\s+(.*)|)$")
 
 
@@ -106,7 +107,9 @@ def read_pattern(kind: str, path: Path) -> Pattern:
     rules = None
     for line in lines_of(text):
         bare = COMMENT.sub("", line).strip()
-        if "-->" in bare:
+        if match := TEXT.fullmatch(bare):  # may mention productions
+            pattern.keys.setdefault(match[1], match[2])
+        elif "-->" in bare:
             if rules is None:
                 rules = Rules("")
                 pattern.rules.append(rules)

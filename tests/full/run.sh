@@ -2,8 +2,8 @@
 # What needs heavy tools: the fuzz targets for a minute each (clang), an SVG through Inkscape, scores through LilyPond
 # and MuseScore, random ones through MuseScore and Verovio, sound through FluidSynth, pages and an animated kolam in
 # Chromium, models through the glTF validator, kolams enumerated, an array of Slurm, a signal to everything that takes
-# long, a gallery under disturbance, plots in vpype and LibreCAD, the site in Chromium and Firefox, the language server
-# in Neovim and with the extension for VS Code.
+# long, a gallery under disturbance, plots in vpype and LibreCAD, the site in Chromium and Firefox, the book, the
+# language server in Neovim and with the extension for VS Code.
 # usage: tests/full/run.sh PROGRAM
 set -euo pipefail
 [ $# -eq 1 ] || { echo "usage: tests/full/run.sh PROGRAM" >&2; exit 2; }
@@ -69,6 +69,6 @@ else
     echo "skipped: export through Inkscape (it is not installed)"
 fi
 
-for part in scores readers repeats sound page model kolam gallery slurm latency chaos vpype cad site editors; do
+for part in scores readers repeats sound page model kolam gallery slurm latency chaos vpype cad site book editors; do
     tests/full/"$part".sh "$program"
 done
