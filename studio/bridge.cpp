@@ -60,7 +60,7 @@ Json answer_patterns() {
     return {{"patterns", std::move(list)}};
 }
 
-/// The texts of the bundled patterns, in the order of `patterns`, without compiling them; a NUL between two of them.
+/// The texts of the bundled patterns, in the order of `patterns`, separated by NUL. Does not compile them.
 Json answer_texts(std::string& bytes) {
     for (const LibraryPattern& known : PatternLibrary::bundled().patterns()) {
         if (!bytes.empty()) bytes += '\0';

@@ -61,8 +61,8 @@ const notices_as_module = made("notices", /^notices$/, () => ({
     loader: "json",
 }));
 
-// Facts about patterns, arrangements and options, which would take the page a second to request from the libraries. The
-// texts of the patterns are in the libraries.
+// Facts about patterns, arrangements and options. The page would need a second to request them from the libraries, which
+// contain the texts of the patterns.
 const ask = await loadBridge(bridge);
 const facts_as_module = made("facts", /^library-facts$/, () => {
     const answer = (what) => JSON.parse(ask(JSON.stringify({ do: what })).json);

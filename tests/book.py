@@ -19,7 +19,7 @@ def chapters(*lengths: tuple[int, int]) -> list[str]:
     return [f"Figure {chapter}.{number}" for chapter, most in lengths for number in range(1, most + 1)]
 
 
-# What the documents number.
+# The numbered figures of the documents.
 NUMBERED = {
     "Prusinkiewicz & Hanan 1989": chapters((1, 4), (2, 13), (3, 18), (4, 6), (5, 3), (6, 9)),
     "Prusinkiewicz, Hammel, Hanan & Mech 1996": [f"Figure {number}" for number in range(1, 18)],
@@ -27,7 +27,7 @@ NUMBERED = {
     "Andújar 2014": [f"Example {number}" for number in range(1, 7)],
     "Saupe 1988": [f"Figure C.{number}" for number in range(1, 9)] + ["Page 272"],
 }
-# Sources of patterns that belong into the book; the thesis has the figures of the last one.
+# Patterns with these sources belong in the book. The thesis has the figures of the last one.
 SOURCES = (*(each for each in NUMBERED if each != "Thesis, chapter 3"), "Prusinkiewicz & Lindenmayer 1990, figure 1.")
 NOT_DRAWN = ("melodies", "arrangements")  # their curves are other patterns
 
@@ -56,7 +56,7 @@ for document in documents:
         expect(not (figure.left_out and figure.drawings), f"{document.name}: {figure.number} is drawn and left out")
         if not figure.left_out:
             expect(bool(figure.index), f"{document.name}: {figure.number} has no entry in the index")
-            expect(not (figure.turn and figure.is_half), f"{document.name}: {figure.number} has half a page and two")
+            expect(not (figure.turn and figure.is_half), f"{document.name}: {figure.number} has half a page and a second page")
 
 drawn = {each.pattern for document in documents for figure in document.figures for each in figure.drawings}
 drawn |= {name for document in documents for figure in document.figures for name in figure.systems}
@@ -65,7 +65,7 @@ for name, pattern in sorted(patterns.items()):
     if pattern.kind not in NOT_DRAWN and source.startswith(SOURCES):
         expect(name in drawn, f"{name} ({source}) is in no figure")
 
-# Entries that are wrong are refused, with the figure and the reason.
+# Wrong entries are refused, with the figure and the reason.
 HEAD = '[[document]]\nname = "x"\nshort = "x"\nreference = "x"\nabout = "x"\ncover = "hilbert"\n[[document.figure]]\nnumber = "Figure 1"\n'
 for entry, reason in (
     ('draw = ["no-such-pattern"]\ncaption = "x"', "Figure 1: there is no pattern 'no-such-pattern'"),

@@ -20,7 +20,7 @@ packaging_packages=(debhelper dh-python fakeroot patchelf pybind11-dev python3-d
     python3-wheel python3-pip unzip)
 # For packaging/site.sh.
 site_packages=(cmark-gfm python3)
-# For packaging/book.sh: what sets pages and puts drawings on them, and the fonts.
+# For packaging/book.sh: for setting pages, for placing drawings on them, and the fonts.
 book_packages=(weasyprint python3-pikepdf fonts-linuxlibertine fonts-inconsolata)
 # For packaging/release.sh: these, and the packages that the slim OpenImageIO is built from.
 release_packages=("${packaging_packages[@]}" libboost-thread-dev libopenexr-dev libtiff-dev libjpeg-dev libpng-dev

@@ -52,8 +52,8 @@ std::vector<int> fill_pens(const Style& style);
 /// that continued smoothly (within 10 degrees) still do: a kolam of two lines keeps two lines, and every line its
 /// course. Ends left over at a point are joined at any angle.
 ///
-/// The strokes of a pen are then ordered, and reversed or begun elsewhere, by near ends and 2-opt over near
-/// ones, in a bounded number of passes. The result is the same on every run. A pen keeps the strokes of the drawing
+/// The strokes of a pen are then ordered, and reversed or begun elsewhere: see sort_strokes(). The number of
+/// passes is bounded. The result is the same on every run. A pen keeps the strokes of the drawing
 /// if arranged ones would need more lifts or more time, and so does the whole plot: it is never worse than the
 /// drawing.
 ///

@@ -40,7 +40,7 @@ inline std::size_t plot_table_size(std::size_t entries) {
     return size;
 }
 
-/// An empty table for so many entries.
+/// An empty hash table with room for this many entries.
 inline std::vector<std::uint32_t> plot_table(std::size_t entries) {
     std::vector<std::uint32_t> table;
     table.reserve(plot_table_size(entries));

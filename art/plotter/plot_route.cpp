@@ -23,8 +23,8 @@ constexpr std::uint32_t no_end = CurveTree::none;
 constexpr std::size_t most_near = 6;
 constexpr std::size_t most_near_closed = 10;  // each point twice
 constexpr std::size_t few = 1000;             // strokes whose order is searched for longer
-constexpr std::size_t many = 20'000;          // strokes for which only one order is improved
-// Strokes that are improved together, of long routes of either kind:
+constexpr std::size_t many = 20'000;          // longer routes are improved from one order only
+// Number of strokes of a long route that are improved together, for Walk::order and Walk::chain:
 constexpr std::size_t part_of_walk = 50'000;
 constexpr std::size_t part_of_chain = 12'500;
 constexpr int most_rounds = 8;
@@ -70,7 +70,7 @@ public:
     /// @param points  ends of the strokes, two each
     /// @param start   position of the pen before the first one
     /// @param returns  the pen travels back to its start
-    /// @param longest_part  of a long route, strokes that are improved together
+    /// @param longest_part  number of strokes of a long route that are improved together
     PlotRoute(std::vector<glm::dvec2> points, std::vector<PlotEnd> order, glm::dvec2 start, bool returns,
               std::size_t longest_part = part_of_walk)
         : points_(std::move(points)),
@@ -404,7 +404,7 @@ std::vector<std::uint32_t> nearest_first(const Entries& entries, CurveTree& tree
     return order;
 }
 
-/// Strokes joined to chains by travels between their ends.
+/// Strokes joined into chains by pen-up travel between their ends.
 class Chains {
 public:
     /// @param points  ends of the strokes, two each
@@ -413,8 +413,8 @@ public:
         for (PlotEnd end = 0; end < far_.size(); ++end) far_[end] = end ^ 1U;
     }
 
-    /// Joins the two nearest ends of different chains again and again until there is one chain. Returns the ends at
-    /// which its strokes are entered, from the end of the chain that is nearer to `start`. Ends that are nearer to
+    /// Repeatedly joins the two nearest ends of different chains until there is one chain. Returns the ends at which
+    /// its strokes are entered, from the end of the chain that is nearer to `start`. Ends that are nearer to
     /// each other than to any others are joined at once; that gives nearly the same chains as trying all pairs in the
     /// order of their distance. Source: Bentley, Fast algorithms for geometric traveling salesman problems, 1992
     /// (greedy heuristic). @param near  of all ends
@@ -426,7 +426,7 @@ public:
             const std::size_t before = ends.size();
             std::erase_if(ends, [&](PlotEnd end) { return partner_[end] != no_end; });
             if (ends.size() <= 2) break;
-            // Only if coordinates are not numbers:
+            // Happens only if coordinates are not numbers.
             if (ends.size() == before) {
                 const auto other = std::find_if(ends.begin(), ends.end(), [&](PlotEnd end) {
                     return end != ends.front() && end != far_[ends.front()];
@@ -445,11 +445,11 @@ public:
     }
 
 private:
-    /// Joins free ends as far as they are near. @param near  lists of indices of `ends`
+    /// Joins free ends of different chains with near ones. @param near  lists of indices of `ends`
     void join_near(std::span<const PlotEnd> ends, const NearLists& near, const Monitor& monitor) {
         Pulse pulse(monitor);
         for (std::uint32_t i = 0; i < ends.size(); ++i) index_[ends[i]] = i;
-        std::vector<std::uint8_t> next(ends.size(), 0);  // those before were joined, or are the end of the same chain
+        std::vector<std::uint8_t> next(ends.size(), 0);  // entries before are joined, or end the same chain
         const auto nearest = [&](std::uint32_t i) {
             const auto list = near.of(i);
             for (; next[i] < list.size() && list[next[i]] != no_end; ++next[i]) {
@@ -508,12 +508,12 @@ private:
     }
 
     const std::vector<glm::dvec2>& points_;
-    std::vector<PlotEnd> partner_;      // of ends: the one that it is joined with, or no_end
+    std::vector<PlotEnd> partner_;      // of ends: the end that it is joined with, or no_end
     std::vector<PlotEnd> far_;          // of free ends: the other end of the chain
-    std::vector<std::uint32_t> index_;  // of free ends, among all that are joined at a time
+    std::vector<std::uint32_t> index_;  // of free ends: their indices in join_near()
 };
 
-/// Routes to begin with.
+/// Initial routes.
 struct Walk {
     std::vector<std::uint32_t> number;  // of strokes, as given
     std::vector<std::uint32_t> begin;   // of strokes: the first segment, if any is closed
@@ -591,8 +591,8 @@ PlotRoute improved(const Walk& walk, std::vector<PlotEnd> order, std::size_t lon
     return route;
 }
 
-/// Compares both kinds of routes in two samples of neighbouring strokes. Where strokes are arranged regularly, always
-/// going to the nearest is better. @param number  of strokes along a curve
+/// True if the improved chain is shorter than the improved walk in both of two samples of neighbouring strokes. If
+/// strokes are arranged regularly, the walk is shorter. @param number  Entries::number
 bool chain_is_shorter(const PlotGraph& graph, const PlotStrokes& given, std::span<const std::uint32_t> number,
                       const Monitor& monitor) {
     constexpr std::size_t size = many / 2;

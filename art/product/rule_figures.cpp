@@ -35,7 +35,7 @@ struct ShownProduction {
     std::optional<ModuleWord> predecessor, successor;
 };
 
-/// The text in one line, with minus signs.
+/// The text on one line, with minus signs instead of hyphens.
 std::string in_one_line(std::string_view text) {
     const std::string words = fmt::format("{}", fmt::join(split_words(text, " \t\n\r"), " "));
     std::string result;
@@ -458,7 +458,7 @@ private:
             figure.successor = decorated(after, size, &tile, 1, 0);
             return figure;
         }
-        // Tiles grow as steps do. If no production replaces steps, they are cells, whose size is their own.
+        // Tiles grow as steps do. If no production replaces steps, they are cells, which keep their size.
         const bool are_tiles = from.polygons > 0 && to.polygons > 0;
         glm::dvec2 growth = are_tiles ? growth_of_steps() : quotient(to.end, from.end);
         figure.is_cell = are_tiles && glm::length(growth) == 0;

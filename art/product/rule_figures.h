@@ -15,7 +15,7 @@ namespace sikku {
 struct RuleFigure {
     std::string before, after;  ///< as the file writes them
     std::shared_ptr<const Grammar> predecessor, successor;
-    bool is_cell = false;  ///< a cell keeps its size, which compares with that of other cells
+    bool is_cell = false;  ///< drawn to the same scale as other cells
 };
 
 struct RuleFigures {

@@ -64,7 +64,7 @@ struct SheetOptions : WriterOptions, PictureOptions, PlotSetup {
 inline double sheet_title_height(const Page& page) {
     return std::clamp(0.032 * std::min(page.width, page.height), 2.0, 40.0);
 }
-/// Height of a title without a subtitle and of the space below it, as part of the height of its capitals.
+/// Height of a title without a subtitle and of the space below it, as a multiple of the height of its capitals.
 constexpr double sheet_title_room = 2.2;
 
 /// The layout of a sheet, in millimetres from its top left corner.

@@ -102,7 +102,7 @@ void Daylight::build(int threads, const std::function<void()>& watch) {
     find_open_ground();
 }
 
-/// Provides the memory of the maps that are looked up: none of a sun or a sky that does not shine. Returns them.
+/// Allocates and returns the maps that are looked up: none for a sun or a sky that does not shine.
 std::vector<DepthMap*> Daylight::make_heights() {
     std::vector<DepthMap*> maps;
     if (shines_sky())

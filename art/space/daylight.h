@@ -25,7 +25,7 @@ namespace sikku {
 ///
 /// The maps have about the resolution of the picture, those of the sky half of it: for drawings of 512 to 2,048
 /// pixels at most 64 of 0.5 MB and 40 of 2 MB, a quarter for smaller and four times as much for larger ones. A sun or
-/// a sky that does not shine has none.
+/// a sky that does not shine has no maps.
 ///
 /// Cost: each direction draws all of the scene once, see Casters, for the sky with curved surfaces divided half as
 /// finely. It is looked up in 2 ns for each place, if places are lit together that are near each other, so that they

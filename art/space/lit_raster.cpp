@@ -78,7 +78,7 @@ glm::vec3 compressed(const glm::vec3& colour) {
     return glm::min(result + 0.12F * beyond, glm::vec3(1.0F));
 }
 
-/// From 0 to 255, and one more.
+/// Linear values of 0 to 255, and one more for interpolation.
 const std::array<float, 257>& linear_values() {
     static const std::array<float, 257> values = [] {
         std::array<float, 257> result{};
@@ -88,7 +88,7 @@ const std::array<float, 257>& linear_values() {
     return values;
 }
 
-/// Of a colour from 0 to 255.
+/// The linear value of a colour whose channels are from 0 to 255.
 glm::vec3 linear(const glm::vec3& colour) {
     const auto& values = linear_values();
     const auto channel = [&](float value) {
@@ -108,7 +108,7 @@ glm::vec3 channels_of(Colour colour) {
 /// The surface nearest to the eye.
 struct Sample {
     float depth = -std::numeric_limits<float>::infinity();
-    std::uint32_t facet = 0;  ///< of the band
+    std::uint32_t facet = 0;  ///< index in the band
     bool is_covered() const { return depth > -std::numeric_limits<float>::max(); }
 };
 
@@ -124,10 +124,10 @@ struct Material {
     bool is_thin = false;  ///< a polygon that lets light through, like a leaf
 };
 
-/// What a triangle, a flat polygon or a ball looks like: its normal and colour at each place.
+/// The normal and colour of a triangle, a flat polygon or a ball at each place.
 struct Facet {
     glm::dvec2 at;                       ///< place of a corner, or the middle of a ball, in samples
-    glm::vec2 to_b{0.0F}, to_c{0.0F};    ///< how near a place is to the other corners, by its distance from the first
+    glm::vec2 to_b{0.0F}, to_c{0.0F};    ///< gradients of the shares of the corners b and c
     std::array<glm::vec3, 3> normals{};  ///< at the corner, and by how much the other two differ
     std::array<glm::vec3, 3> colours{};  ///< likewise, from 0 to 255
     float radius = 0;                    ///< of a ball, in samples, or 0
@@ -144,7 +144,7 @@ struct Facet {
     }
 };
 
-/// The nearest facets of some rows. Facets are looked at once the rows are complete, and then once for a pixel
+/// The nearest facets of some rows. Normals and colours are computed when the rows are complete, once for a pixel
 /// instead of for each of its samples.
 class Band : public SampleBand<Sample> {
 public:
@@ -216,12 +216,12 @@ public:
 private:
     std::uint32_t next() const { return static_cast<std::uint32_t>(facets_.size()); }
 
-    std::vector<Facet> facets_;  ///< seen, at least for a while
+    std::vector<Facet> facets_;  ///< also those that nearer ones hide
 };
 
 constexpr int most_block = 2;           // pixels, each way, that are lit together …
 constexpr double fine_dpi = 200;        // … from this resolution on …
-constexpr double fine_drawing = 2'048;  // … and in drawings of more pixels, which are finer than the maps
+constexpr double fine_drawing = 2'048;  // … or in drawings of more pixels, which are finer than the maps
 constexpr int tile_width = 32;          // pixels; a multiple of the blocks
 
 /// Samples of a block of pixels that lie on one surface and are lit together.
@@ -530,7 +530,7 @@ private:
 
     class GroundRows;
 
-    /// Some pixels of which what lies on one surface is lit together.
+    /// Neighbouring pixels; their samples that lie on one surface are lit together.
     struct Block {
         int left = 0, top = 0, right = 0, bottom = 0;  ///< within the tile
         std::size_t first = 0, end = 0;                ///< its parts
@@ -650,7 +650,7 @@ private:
         return bare;
     }
 
-    /// @param corner  the upper left one of the pixel
+    /// @param corner  upper left corner of the pixel
     void add(const Facet& facet, const SeenFacet& seen, const glm::dvec2& corner, std::size_t pixel,
              std::size_t first, std::vector<LitPart>& parts) const {
         const auto count = static_cast<float>(seen.count);
@@ -659,7 +659,7 @@ private:
         const glm::vec2 shares = facet.shares(place);
         const glm::vec3 normal =
             facet.radius > 0 ? normal_of_ball(facet, place) : Facet::mixed(facet.normals, shares);
-        // Blocks would show on narrow stems if all that is round were lit together.
+        // With a smaller cosine, blocks would be visible on narrow stems.
         const float alike = block_ == 1 ? 0.85F : 0.985F;
         auto found = std::find_if(parts.begin() + std::ptrdiff_t(first), parts.end(), [&](const LitPart& part) {
             return part.takes(facet.material.is_thin, depth, normal, alike);
@@ -754,7 +754,7 @@ private:
         if (!(eye.y > 1e-3)) return std::nullopt;
         return point - eye * ((point.y - double{daylight_.ground()}) / eye.y);
     }
-    /// Without perspective, the places at pixel 0 0 and from one pixel to the next on the right and below.
+    /// Without perspective: the place at pixel 0 0, and the vectors from a pixel to the next on the right and below.
     std::optional<std::array<glm::dvec3, 3>> level_ground() const {
         constexpr int apart = 1024;
         const auto first = ground_seen_at(0, 0), right = ground_seen_at(apart, 0), below = ground_seen_at(0, apart);
@@ -825,7 +825,7 @@ private:
             bool is_wanted = false;
             float sky = 1;
         };
-        /// Where a row or column of pixels lies.
+        /// The square of a row or column of pixels, and the position in it.
         struct Square {
             int number = 0;
             float share = 0;  ///< from the beginning of the square to its end

@@ -14,8 +14,8 @@ namespace sikku {
 /// the base. The ground, which is level and as low as the scene, shows only the shadow.
 ///
 /// The samples hold the nearest surface, whose normal and colour are computed once for a pixel. All samples of a
-/// pixel, or of 2 by 2 pixels from 200 dpi on and in drawings of more than 2,048 pixels, that lie on one surface with
-/// nearly one normal are lit together. The shadow of the sky on the ground, which has no edges, is computed eight
+/// pixel (of 2 by 2 pixels at 200 dpi or more, or in drawings of more than 2,048 pixels) that lie on one surface with
+/// similar normals are lit together. The shadow of the sky on the ground, which has no edges, is computed eight
 /// times as far apart. Memory: for each thread and one more, a band with 8 bytes for each of 16 samples a pixel and
 /// 112 for each triangle that is seen in it; Daylight; and 24 bytes a segment. `print` is placed; it and `scene` must
 /// outlive the result. @throws std::runtime_error if a side is over 500,000 pixels

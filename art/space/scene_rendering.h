@@ -143,7 +143,7 @@ private:
     int top_ = 0, rows_ = 0;
     std::size_t stretches_;  ///< of a row
     std::size_t size_;
-    LargeArray<Sample> memory_;  ///< in large pages, as a surface lies in many rows
+    LargeArray<Sample> memory_;  ///< in large pages: a surface covers many rows
     std::span<Sample> samples_;
     std::vector<char> touched_;  ///< stretches of rows of pixels
 };

@@ -120,7 +120,7 @@ Grid grid_of(const Patch& patch, int n, double near) {
     return grid;
 }
 
-/// Distance of a point from the plane of a triangle, or from one of its corners if that is no plane.
+/// Distance of a point from the plane of a triangle; 0 if the corners lie on a line.
 double distance_from_plane(const glm::dvec3& point, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     const glm::dvec3 normal = glm::cross(b - a, c - a);
     const double length = glm::length(normal);
@@ -134,8 +134,8 @@ double distance_from_line(const glm::dvec3& point, const glm::dvec3& a, const gl
     return length > 0 ? glm::length(glm::cross(point - a, along)) / length : glm::distance(point, a);
 }
 
-/// How far a patch is from n by n quadrilaterals, at their middles and at those of their sides; along its rim from
-/// the sides. Each quadrilateral may be divided along either diagonal.
+/// The largest distance of a patch from n by n quadrilaterals, at the middle of each and of its sides; on the rim of
+/// the patch, the distance from the sides. Each quadrilateral may be divided along either diagonal.
 double deviation_of(const Patch& patch, int n) {
     const auto at = [&](double row, double column) { return sum(patch, weights(row / n), weights(column / n)); };
     const auto corners = [&](int row) {
@@ -276,7 +276,8 @@ public:
     }
 
 private:
-    /// The fewest parts that do not deviate more. @param most  parts that a bound of the deviation requires
+    /// The smallest number of parts that do not deviate more. @param most  number that a bound of the deviation
+    /// requires
     int measured(const Surface& surface, double deviation, int most) const {
         constexpr double safety = 1.2;  // between the places where it is measured
         for (const int n : divisions) {

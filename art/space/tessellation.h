@@ -16,8 +16,9 @@ struct Fineness {
     double deviation = 0;  ///< maximum distance of the polygons from the surface, in turtle steps; 0: any
     double share = 0;      ///< the same as a share of the surface's size
     double side = 0;       ///< longest side of a polygon of a curved surface, in turtle steps; 0: any
-    /// Whether `deviation` is measured at the middle of each polygon and its sides, which saves up to half of the
-    /// divisions each way that a bound of it requires. Cost: 1 µs for each polygon of a patch, once for each surface.
+    /// Whether `deviation` is measured at the middle of each polygon and of its sides; otherwise a bound is used,
+    /// which requires up to twice as many divisions each way. Cost: 1 µs for each polygon of a patch, once for each
+    /// surface.
     bool is_measured = false;
 };
 

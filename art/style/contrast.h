@@ -19,7 +19,7 @@ double contrast_ratio(Colour a, Colour b);
 /// Composites a colour over an opaque one.
 Colour laid_over(Colour colour, Colour ground);
 
-/// The colour at a share of the way from one colour to another, in each channel of sRGB and in alpha.
+/// Interpolates between two colours in each channel of sRGB and in alpha. @param share  of the second
 Colour mixed(Colour from, Colour to, double share);
 
 }  // namespace sikku

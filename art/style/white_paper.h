@@ -9,7 +9,7 @@ namespace sikku {
 
 /// The colour of white paper.
 constexpr Colour white_paper{255, 255, 255, 255};
-/// The ground, or white paper if it is transparent.
+/// The ground, or white paper if it is absent or transparent.
 inline Colour ground_or_white(const std::optional<Colour>& ground) {
     return ground && ground->alpha > 0 ? *ground : white_paper;
 }

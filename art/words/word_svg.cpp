@@ -123,7 +123,7 @@ double write_labels(const WordTable& table, double pitch, WordCanvas& canvas) {
     return width + 6;
 }
 
-/// The text in one line, with arrows.
+/// The text on one line, with arrows for `-->`.
 std::string single_spaced(std::string_view text) {
     constexpr std::string_view arrow = "-->";
     std::string result = fmt::format("{}", fmt::join(split_words(text, " \t\n\r"), " "));

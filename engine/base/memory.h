@@ -12,8 +12,8 @@ namespace sikku {
 /// Bytes of memory available without swapping; 4 GB if the system does not report it.
 std::uint64_t available_memory();
 
-/// Asks the system to use large pages for memory of more than a few megabytes that will be filled from its beginning:
-/// it is then faster to fill, and to access in any order. Where it can not, does nothing.
+/// Asks the system to use large pages for memory that will be filled from its beginning: it is then faster to fill,
+/// and to access in any order. Does nothing for less than 4 MB, or if the system cannot do it.
 void use_large_pages(void* begin, std::size_t bytes);
 /// The same for the memory that a vector has reserved.
 template <class Element>

@@ -17,11 +17,12 @@ constexpr std::size_t longest_run = 4096;
 /// Number of symbols or frames between two calls of DerivationOptions::watch.
 constexpr std::uint64_t between_watches = std::uint64_t{1} << 16;
 
-/// Counts the nodes that are visited.
+/// Counts the nodes that a derivation visits.
 class VisitedNodes {
 public:
     VisitedNodes(const Grammar& grammar, const DerivationOptions& options) : grammar_(grammar), options_(options) {}
-    /// From time to time, compares the count with the budget, and calls DerivationOptions::watch. @throws BudgetError
+    /// Every `between_watches` nodes, compares the count with the budget and calls DerivationOptions::watch.
+    /// @throws BudgetError
     void add(std::uint64_t nodes) {
         count_ += nodes;
         if (count_ >= next_look_) look();

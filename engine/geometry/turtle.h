@@ -46,9 +46,9 @@ public:
                           bool /*is_closed*/) {}
 };
 
-/// Where a turtle on a lattice is between two runs of symbols.
+/// The state of a turtle on a lattice between two runs of symbols.
 struct TurtleStand {
-    std::array<std::int64_t, 8> coordinates{};  ///< of its lattice; the first Lattice::rank count
+    std::array<std::int64_t, 8> coordinates{};  ///< in its lattice; only the first Lattice::rank are used
     std::uint32_t heading = 0;
     Pen pen{};
     std::int64_t depth = 0;      ///< open brackets
@@ -76,12 +76,12 @@ public:
     /// Valid after finish() of a surveying turtle.
     virtual Survey survey() const = 0;
 
-    /// Nullopt off a lattice, within a polygon, and if the pattern has inserted edges.
+    /// The current state. Nullopt without a lattice, within a polygon, and if the pattern has inserted edges.
     virtual std::optional<TurtleStand> stand() const = 0;
     /// The least number of open brackets since the last call.
     virtual std::int64_t lowest_depth() = 0;
-    /// Lifts the pen and leaves out a part of the word, whose effect is known and which closes the brackets that it
-    /// opens: continues from `stand`, whose depth is ignored.
+    /// Lifts the pen and skips a part of the word whose effect is known and that closes the brackets that it opens:
+    /// continues from `stand`, whose depth is ignored.
     virtual void skip_to(const TurtleStand& stand) = 0;
 };
 

@@ -80,7 +80,7 @@ void pair_rest(TilePieces& pieces, std::size_t points) {
     }
 }
 
-/// The twins of edges, or no_number. Within parts of tiles that recur they are known.
+/// The twins of edges, or no_number. Within recurring parts they are known.
 std::vector<std::uint32_t> pair_edges(const TileSet& tiles, std::size_t points) {
     std::vector<std::uint32_t> twin;
     twin.reserve(tiles.corner.size());
@@ -103,10 +103,10 @@ std::vector<std::uint32_t> pair_edges(const TileSet& tiles, std::size_t points) 
     return twin;
 }
 
-/// Takes over the twins of edges, of which those with a twin are whole.
+/// Copies the twins of edges to their sides. Edges with a twin are not cut.
 void take_twins(TilePieces& pieces, const std::vector<std::uint32_t>& of_edges, const std::vector<Cut>& cuts) {
     constexpr std::uint32_t share = 32;
-    std::vector<std::uint32_t> first;  // cut from the first edge of each share on
+    std::vector<std::uint32_t> first;  // index of the first cut at or after the beginning of each share
     first.reserve(of_edges.size() / share + 1);
     std::uint32_t next = 0;
     for (std::size_t edge = 0; edge < of_edges.size(); edge += share) {
@@ -156,8 +156,8 @@ TilePieces make_pieces(const TilePlane& plane, const TileSet& tiles, const std::
     return pieces;
 }
 
-/// Finds corners that lie on edges between their ends. @param twin  of edges, which are searched if they have none;
-/// empty: all are
+/// Finds corners that lie on edges between their ends. @param twin  of edges; only those without one are searched.
+/// Empty: all edges are searched.
 std::vector<Cut> find_cuts(const TilePlane& plane, const TileSet& tiles, const std::vector<std::uint32_t>& twin,
                            const Monitor& monitor) {
     // Visits the edges of a tile that are searched.

@@ -13,10 +13,10 @@
 
 namespace sikku {
 
-/// Skips parts of the word whose tiles are known: expansions of the same symbol with as many remaining steps, that
-/// the turtle entered with the same heading and pen. The first one is read, and its tiles and corners are kept
-/// relative to where it began; others add them at other places, in the same order. Points are still compared exactly,
-/// and each tile with those before it. Only for a turtle on a lattice. Memory: up to about 10 MB.
+/// Skips parts of the word whose tiles are known: expansions of the same symbol with as many remaining steps that
+/// the turtle enters with the same heading and pen. The first one is read, and its tiles and corners are kept
+/// relative to its beginning; the others add them at other places, in the same order. Points are still compared
+/// exactly, and each tile with those before it. Only for a turtle on a lattice. Memory: up to about 10 MB.
 class TileRepeats : public Pruner {
 public:
     /// Keeps references. @param turtle  its polygons go to the collector
@@ -28,7 +28,7 @@ private:
     struct Part {
         bool is_usable = false;
         std::optional<std::uint32_t> tiles;  ///< number of their part; none: it only moves the turtle
-        TurtleStand end;                     ///< coordinates and depth relative to those at its beginning
+        TurtleStand end;                     ///< coordinates and position relative to those at its beginning
     };
 
     bool is_worthwhile(Symbol symbol, std::int64_t level) const;

@@ -247,7 +247,7 @@ public:
             }
             keep_tile(part.in_class[tile], part.colour[tile]);
         }
-        // Without duplicates, which are left out.
+        // Only if no tile was left out as a duplicate.
         if (tiles_.corner.size() - begin == part.corner.size()) tiles_.placed.push_back({begin, number});
     }
 

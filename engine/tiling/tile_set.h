@@ -70,7 +70,7 @@ struct TileClass {
 /// Valid tiles on an exact plane that recur at other places, relative to a place of its lattice.
 struct TilePart {
     std::vector<std::int32_t> points;    ///< coordinates of their corners, in the order in which these occur first
-    std::vector<std::uint32_t> corner;   ///< of all tiles, as number of a point
+    std::vector<std::uint32_t> corner;   ///< of all tiles, as indices of points
     std::vector<std::uint32_t> partner;  ///< of edges: the only one in the opposite direction, or no_number
     std::vector<std::uint32_t> in_class;
     std::vector<std::int32_t> colour;
@@ -136,8 +136,8 @@ public:
              bool is_closed);
 
     TileMark mark() const;
-    /// Keeps the tiles that were added since as a part, relative to a place. Returns its number; nullopt if there
-    /// were faults. Only on an exact plane.
+    /// Keeps the tiles that were added since `mark` as a part, relative to a place. Returns its number; nullopt if
+    /// there were faults. Only on an exact plane.
     std::optional<std::uint32_t> keep_part(const TileMark& mark, const Cyclotomic::Number& origin);
     /// Adds the tiles of a part at another place, as if they were drawn there. @throws BudgetError
     void add_part(std::uint32_t part, const Cyclotomic::Number& origin);

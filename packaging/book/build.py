@@ -3,7 +3,7 @@
 
 usage: build.py OUTPUT --program PROGRAM --version VERSION [--only NUMBER,...]
 
---only makes a book of a few figures, for looking at them.
+--only makes a book of a few figures, to look at them.
 """
 
 import argparse
@@ -30,7 +30,7 @@ LEAST_PLATE = 92.0  # mm; figures whose text leaves less have their systems on a
 
 
 def rendered(html: str, folder: Path) -> weasyprint.Document:
-    """The pages. Images have addresses `picture:NAME`, for the PDF depends on addresses, and the folder is a scratch one."""
+    """Sets the pages. Images have addresses `picture:NAME`, because the PDF depends on addresses and the folder is temporary."""
 
     def fetch(address: str) -> dict:
         name = address.removeprefix("picture:")
@@ -50,15 +50,15 @@ def places_of(document: weasyprint.Document) -> dict[str, tuple[int, float, floa
 
 
 def room_for(figure: figures.Figure, places: dict[str, tuple[int, float, float]], plate: str, end: str) -> float:
-    """What the text from the place of pictures to an element leaves of the page, in millimetres, measured in a book without
-    pictures."""
+    """The height that pictures can have on a page, in millimetres: what the text from their place to an element leaves.
+    `places` are those of a book without pictures."""
     first, _, _ = places[f"{figure.anchor}-{plate}"]
     last, _, bottom = places[f"{figure.anchor}-{end}"]
     return text.PAGE_BOTTOM - bottom - 2 if first == last else 0.0
 
 
 def insert_pictures(pdf: pikepdf.Pdf, pictures: list[Picture], places: dict[str, tuple[int, float, float]]) -> None:
-    """Puts the drawings that are PDF files below the text of their pages."""
+    """Places the drawings that are PDF files under the text of their pages."""
     for picture in pictures:
         if picture.file.suffix != ".pdf":
             continue
@@ -66,7 +66,7 @@ def insert_pictures(pdf: pikepdf.Pdf, pictures: list[Picture], places: dict[str,
         page = pdf.pages[number - 1]
         with pikepdf.open(picture.file) as drawing:
             form = pdf.copy_foreign(drawing.pages[0].as_form_xobject())
-        # add_underlay() would invent a name, another one in each run.
+        # add_underlay() would choose a different name in each run.
         name = pikepdf.Name(f"/{picture.anchor}")
         if "/XObject" not in page.resources:
             page.resources.XObject = pikepdf.Dictionary()
@@ -116,7 +116,7 @@ def build(output: Path, program: Program, version: str, only: list[str], scratch
     pictures = [each for pages in plates.values() for rows in pages for row in rows for each in row] + book.extra_pictures()
     studio.make_all(pictures, os.cpu_count() or 1)
 
-    # The pictures leave every text on its page, unless something does not fit.
+    # Repeated if a picture has moved a text to another page, so that the printed numbers of pages are right.
     while True:
         pages = {name: page for name, (page, _, _) in places.items()}
         document = rendered(book.html(plates, pages), scratch)
@@ -140,7 +140,7 @@ def main() -> None:
     options = parser.parse_args()
     if not Path(options.program).is_file():
         sys.exit(f"book: {options.program} is missing; ./demo builds it")
-    logging.getLogger("fontTools").setLevel(logging.ERROR)  # it doubts the widths of glyphs in Linux Libertine
+    logging.getLogger("fontTools").setLevel(logging.ERROR)  # it warns of widths of glyphs in Linux Libertine
     output = Path(options.output)
     output.parent.mkdir(parents=True, exist_ok=True)
     only = [each for each in options.only.split(",") if each]

@@ -23,7 +23,7 @@ FIGURE_KEYS = {
 
 @dataclass(frozen=True)
 class Drawing:
-    """A call of the program: what a picture of a figure shows."""
+    """A picture of a figure as a call of the program."""
 
     pattern: str
     options: tuple[str, ...] = ()
@@ -46,11 +46,11 @@ class Figure:
     drawings: list[Drawing] = field(default_factory=list)
     labels: list[str] = field(default_factory=list)
     systems: list[str] = field(default_factory=list)  # names of patterns
-    columns: list[int] = field(default_factory=list)  # of each row; one number: of all; none: what makes pictures largest
-    turn: int = 0  # pictures after these are on the second page, above the systems; 0: all are on the first
+    columns: list[int] = field(default_factory=list)  # of each row; one number: of all; empty: the number that makes pictures largest
+    turn: int = 0  # pictures on the first page; others are on a second one, above the systems; 0: all
     has_one_scale: bool = False
-    step: tuple[float, float, float] | None = None  # mm, on a picture of this width and height in mm: of a gallery in space
-    keys: list[str] = field(default_factory=list)  # KEY=VALUE for all pictures
+    step: tuple[float, float, float] | None = None  # of a gallery, and width and height of its pictures, in mm
+    keys: list[str] = field(default_factory=list)  # KEY=VALUE, for all pictures
     is_half: bool = False
     caption: str = ""
     note: str = ""
@@ -124,11 +124,11 @@ def gallery_of(name: str) -> tuple[list[Drawing], tuple[float, float, float] | N
 
 
 def split_description(text: str) -> tuple[str, str]:
-    """A description without, and with only, the sentences about what was mended."""
+    """Splits a description: the sentences about the pattern, and those about what was mended or reconstructed."""
     sentences = re.split(r"(?<=[.!?])\s+(?=[A-Z(])", text)
     mending, kept, remade = False, [], []
     for sentence in sentences:
-        # What follows ‘Mended:’ belongs to it.
+        # All sentences after ‘Mended:’ describe what was mended.
         mending = mending or sentence.startswith("Mended")
         (remade if mending or REMADE.search(sentence) else kept).append(sentence)
     return " ".join(kept), " ".join(remade)

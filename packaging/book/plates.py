@@ -14,7 +14,7 @@ from program import Program, table_of
 GAP = 2.5  # mm between pictures
 LABEL = 5.0  # mm, a line below a picture
 DPI = 300  # of pictures in light
-THICKEST = 0.014  # of the shorter side of a picture: lines of curves with few steps
+THICKEST = 0.014  # share of the shorter side of a picture; limits the lines of curves with few steps
 
 
 @dataclass
@@ -32,7 +32,7 @@ class Picture:
 
 
 def rows_of(count: int, columns: int) -> list[int]:
-    """How many pictures each row has; a last row is not much shorter than the others."""
+    """The number of pictures in each row; rows differ by at most one."""
     rows = math.ceil(count / columns)
     if count % columns == 0 or columns == 1:
         return [min(columns, count)] * rows
@@ -40,7 +40,7 @@ def rows_of(count: int, columns: int) -> list[int]:
 
 
 def best_columns(count: int, width: float, height: float) -> int:
-    """The number of columns that makes the largest square fit into each picture."""
+    """The number of columns for which the largest squares fit into the pictures."""
 
     def side(columns: int) -> float:
         rows = math.ceil(count / columns)
@@ -50,11 +50,11 @@ def best_columns(count: int, width: float, height: float) -> int:
 
 
 def laid_out(figure: Figure, width: float, height: float, numbers: range, columns: list[int]) -> list[list[Picture]]:
-    """Some pictures of a figure in rows, in an area of this size with labels."""
+    """Lays out some pictures of a figure in rows, with their labels, in an area of this size."""
     count = len(numbers)
     label = LABEL if figure.labels else 0.0
     rows = columns if len(columns) > 1 else rows_of(count, (columns or [best_columns(count, width, height)])[0])
-    # A picture that has a row to itself, above or below rows of several, is the larger one.
+    # A picture alone in its row is larger than those in rows of several.
     shares = [1.6 if of_row == 1 and max(rows) > 1 else 1.0 for of_row in rows]
     room = height - GAP * (len(rows) - 1) - label * len(rows)
     laid, at = [], 0
@@ -72,7 +72,7 @@ def laid_out(figure: Figure, width: float, height: float, numbers: range, column
 
 
 def pages_of(figure: Figure, width: float, height: float, second: float = 0.0) -> list[list[list[Picture]]]:
-    """The rows of the first page and, if some of the pictures are on a second one, of that."""
+    """The rows of the first page and, if some of the pictures are on a second page, of that page."""
     count, turn = len(figure.drawings), figure.turn or len(figure.drawings)
     if not second or turn == count:
         return [laid_out(figure, width, height, range(count), figure.columns)]
@@ -100,7 +100,7 @@ class Studio:
         self.program, self.patterns, self.folder = program, patterns, folder
 
     def make(self, picture: Picture) -> None:
-        """Makes a PDF of the picture; a PNG if it is in light, an SVG if it is a piano roll. Raises ValueError."""
+        """Makes the file of a picture: a PNG if it is in light, an SVG if it is a piano roll, otherwise a PDF. Raises ValueError."""
         pattern = self.patterns[picture.drawing.pattern]
         if picture.drawing.is_played:
             tune = self.folder / f"{picture.anchor}.mid"
@@ -145,7 +145,7 @@ class Studio:
             each.step = step
 
     def stroke(self, picture: Picture, pattern: Pattern) -> str:
-        """A thinner stroke, if that of the pattern is a part of a step which is long in this picture; or ""."""
+        """A thinner stroke, if that of the pattern is relative to the step and too thick in this picture; otherwise ""."""
         match = re.fullmatch(r"([0-9.]+) step\b *(.*)", pattern.keys.get("stroke", ""))
         if not match or any(each.startswith("stroke=") for each in picture.keys) or "view" in pattern.keys or "!" in pattern.text or picture.drawing.is_of_rules:
             return ""

@@ -47,7 +47,7 @@ def word(text: str, most: int = LONGEST_WORD) -> str:
 
 
 def steps_of(figure: Figure, pattern: Pattern) -> str:
-    """The derivation lengths that a figure shows of a pattern, if it sets them."""
+    """The derivation lengths of a pattern in a figure, if the figure sets them."""
     own = [each for each in figure.drawings if each.pattern == pattern.name and "--set" not in each.options and not each.is_of_rules]
     numbers = sorted({int(each.n) for each in own if each.n})
     if not numbers:
@@ -65,7 +65,7 @@ def without_article(term: str) -> str:
 
 
 def kind_of_note(note: str) -> tuple[str, str]:
-    """What a note is about, and its text without the word that says so."""
+    """The kind of a note, and its text without the words that state the kind."""
     mended = re.match(r"Mended:? ", note)
     remade = re.match(r"(A reconstruction|Reconstructions|Reconstructed)(, for|,|:)? ", note)
     kind = "Mended" if mended else "Reconstructed" if remade or "econstruct" in note or "guess" in note else "Note"
@@ -90,7 +90,7 @@ class Facts:
         if "cells" in rows:
             return " · ".join(f"{rows[name]} {'outer edges' if name == 'outer' else name}" for name in ("cells", "edges", "vertices", "outer") if name in rows)
         found = [f"{readable('symbols', rows.get('symbols', ''))} symbols"]
-        if self.patterns[drawing.pattern].kind == "words":  # are lettered or schematic
+        if self.patterns[drawing.pattern].kind == "words":  # drawn as letters or schematically
             return found[0]
         if rows.get("drawn", "0") != "0":
             found.append(f"{readable('drawn', rows['drawn'])} segments")
@@ -126,7 +126,7 @@ class Book:
         self.facts = Facts(studio, patterns)
         self.figures = [each for document in documents for each in document.figures if not each.left_out]
         self.second_halves: set[str] = set()
-        self.spreads: set[str] = set()  # figures whose systems have a page of their own
+        self.spreads: set[str] = set()  # figures whose systems are on a second page
         for document in documents:
             drawn = [each for each in document.figures if not each.left_out]
             for before, after in zip(drawn, drawn[1:]):
@@ -134,7 +134,7 @@ class Book:
                     self.second_halves.add(after.anchor)
         cover = Picture(drawings_of(COVER_DRAWING)[0], "", "cover-picture", *COVER)
         self.cover = cover
-        # Their heights are what the text leaves of the page.
+        # Their heights are set when the height of the text is known.
         self.openers = {
             number: Picture(document.cover, "", f"document-{number}-picture", PAGE_WIDTH, 100.0)
             for number, document in enumerate(documents, 1)
@@ -143,7 +143,7 @@ class Book:
     def extra_pictures(self) -> list[Picture]:
         return [self.cover, *self.openers.values()]
 
-    # A picture takes its place as an empty box, below which the drawing is put; pixels and piano rolls are images.
+    # A picture is an empty box, under which its drawing is placed later; pixels and piano rolls are images.
     def box(self, picture: Picture) -> str:
         size = f"width:{picture.width:.3f}mm;height:{picture.height:.3f}mm"
         image = ""
@@ -176,7 +176,7 @@ class Book:
         most = 1200 if figure.anchor in self.spreads else LONGEST_WORD
         html = system(pattern, steps_of(figure, pattern), lambda text: word(text, most))
         rows = re.findall(r"<tr.*?</tr>", html)
-        # n and δ stand in one row.
+        # n and δ share a row.
         if len(rows) > 1 and ">δ</th>" in rows[1]:
             cells = [re.sub(r"<[^>]*>", "", each.partition("<td>")[2]) for each in rows[:2]]
             rows[:2] = [f'<tr><th scope="row">n, δ</th><td>{cells[0]}, {cells[1]}</td></tr>']
@@ -187,7 +187,7 @@ class Book:
         if constants:
             defined = {f">{escaped(each)}</th>" for each, _, _ in pattern.defines}
             rows = [row for row in rows if not any(each in row for each in defined)]
-        # Productions that draw organs and cells are the pattern's own, and often long.
+        # Productions that draw organs and cells are additions of the pattern, and often long.
         for at, row in enumerate(rows):
             if ">For drawing<" in row:
                 drawn = rows[at + 1 :]
@@ -323,8 +323,8 @@ class Book:
                 rows += f"<tr><td>{escaped(number)}</td><td>{prose(title)}</td><td>{prose(reason)}</td></tr>"
         return (
             '<section class="left-out"><h1 id="left-out">What is left out, and why</h1>'
-            "<p>These figures state no system that could be drawn, or parts of them do not. Tables of the documents are not figures; "
-            f"the constants of the nine trees (table 1 of the paper of 1996) are printed with them.</p><table>{rows}</table></section>"
+            "<p>These figures, or parts of them, show no system that can be drawn. Tables are not listed; the constants of the nine "
+            f"trees (table 1 of the paper of 1996) are printed with the trees.</p><table>{rows}</table></section>"
         )
 
     def remade(self, pages: dict[str, int]) -> str:
@@ -341,7 +341,7 @@ class Book:
                 )
         return (
             '<section class="remade"><h1 id="remade">What was mended or reconstructed</h1><p>The note at each of these figures says what the '
-            "document lacks, and what stands in its place.</p>"
+            "document lacks, and what replaces it.</p>"
             f'<div class="columns">{rows}</div></section>'
         )
 
@@ -364,7 +364,7 @@ class Book:
             title, _, name = term.partition("`")
             html += f"<p>{prose(title)}{f' <code>{escaped(name)}</code>' if name else ''},\u00a0{links}</p>"
         return (
-            '<section class="index"><h1 id="index">Index</h1><p class="hint">Names in <code>this type</code> are those of pattern files.</p>'
+            '<section class="index"><h1 id="index">Index</h1><p class="hint">Names in <code>this type</code> are names of pattern files.</p>'
             f'<div class="columns">{html}</div></section>'
         )
 

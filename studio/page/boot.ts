@@ -30,8 +30,7 @@ function unpackLibraries(): Promise<ArrayBuffer> {
     });
 }
 
-// The picture of the first pattern, which the page shows until the libraries have drawn it: visitors who come for the
-// first time see it at once.
+// Shows the picture of the first pattern to visitors who come for the first time, until the libraries have drawn it.
 function showDraft(): void {
     if (hasSavedWork() || location.hash.length > 1 || packedText("sikku-patterns") !== "[]") return;
     const text = new TextDecoder().decode(unpackText(packedText("sikku-draft")));

@@ -15,12 +15,12 @@ function decode(text: string, start: number, size: number): Uint8Array<ArrayBuff
     return new Uint8Array(words.buffer, 0, size);
 }
 
-/// The contents of an element, as they are in the page.
+/// The compressed contents of an element.
 export function packedText(id: string): string {
     return document.getElementById(id)!.textContent!.trim();
 }
 
-/// Decompresses the contents of an element.
+/// Decompresses what packedText() returns.
 export function unpackText(text: string): Uint8Array<ArrayBuffer> {
     const [packed, whole] = text.split(" ", 2).map(Number) as [number, number];
     return unpackLzma(decode(text, text.lastIndexOf(" ") + 1, packed), whole);

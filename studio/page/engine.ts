@@ -64,7 +64,7 @@ export class Pool implements Engine {
         for (let index = 0; index < workers; ++index) this.seats.push(this.seat());
     }
 
-    /// Gives the workers the libraries.
+    /// Passes the libraries to the workers, and begins the requests that wait.
     start(module: WebAssembly.Module): void {
         this.module = module;
         for (const seat of this.seats) this.begin(seat.worker, module);
@@ -254,7 +254,7 @@ export class Pool implements Engine {
     }
 }
 
-/// Starts the workers of the page, which do not have the libraries yet.
+/// Starts the workers of the page. They get the libraries from Pool.start().
 export function startWorkers(): Pool {
     const workers = Math.max(2, Math.min(navigator.hardwareConcurrency || 2, most_workers));
     return new Pool(scriptAddress("sikku-worker"), workers);

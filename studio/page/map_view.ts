@@ -438,7 +438,7 @@ export class MapView {
         );
     }
 
-    // A page that was asked for before the facts of its pattern were known gets its camera and ground.
+    // Adds camera and ground to a page that was requested before the facts of its pattern were known.
     private placed(overview: Overview): Overview {
         const { facts, studio, work } = this;
         if (overview.camera || overview.kind !== "page" || overview.name !== this.pageName || !this.known) return overview;

@@ -1,4 +1,4 @@
-// Patterns as texts.
+// Pattern files, imported as texts.
 declare module "*.lsys" {
     const text: string;
     export default text;

@@ -14,7 +14,7 @@ export type Options = [string, string][]; // names as in `help`; flags have the 
 /// Requests. All except `patterns`, `arrangements`, `help`, `show`, `import`, `link`, `dots`, `grid` and `read` concern a pattern.
 export type Request =
     | { do: "patterns" }
-    | { do: "texts" } // as bytes, with a NUL between two texts
+    | { do: "texts" } // as bytes, separated by NUL
     | { do: "arrangements" }
     | { do: "help" }
     | { do: "open"; pattern: PatternRequest }

@@ -9,10 +9,10 @@ export function remembered<Value>(name: string, absent: Value): Value {
     }
 }
 
-/// The name under which the history of the work is kept.
+/// The name under which the history of the work is stored.
 export const work_key = "sikku-studio";
 
-/// True if an earlier visit has left its work.
+/// True if an earlier visit has saved work.
 export function hasSavedWork(): boolean {
     return remembered<unknown>(work_key, null) !== null;
 }

@@ -130,7 +130,7 @@ TEST(Tessellation, AMeasuredDeviationHoldsEverywhere) {
 }
 
 TEST(Tessellation, PointsThatLieUnevenlyInAPlaneNeedNoMeasuredDivisions) {
-    // A rectangle: its inner points only move along it, which a bound by differences of points cannot know.
+    // A flat rectangle whose inner points are spaced unevenly: a bound by differences of points requires divisions.
     const std::string uneven =
         "patch p:\n0 0 0, 2 0 0, 2.5 0 0, 3 0 0\n0 2 0, 2 2 0, 2.5 2 0, 3 2 0\n"
         "0 2.5 0, 2 2.5 0, 2.5 2.5 0, 3 2.5 0\n0 3 0, 2 3 0, 2.5 3 0, 3 3 0\naxiom: ~p\n";

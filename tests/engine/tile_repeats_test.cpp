@@ -68,7 +68,7 @@ TEST(TileRepeats, MovedTilesEqualThoseRead) {
 }
 
 TEST(TileRepeats, FaultsAreThoseOfTheWholeWord) {
-    // Rows of squares, of which each continues the one before, lies on its end, or overlaps it by half a square.
+    // Rows of squares: each continues the previous row, lies on its end, or overlaps it by half a square.
     for (const std::string way : {"", "|ff|", "|f(0.5)|"}) {
         compare("squares " + way,
                 reference::grammar_of("axiom: A\nderivation length: 6\nmove: f\nangle factor: 4\nA --> A" + way +
@@ -86,7 +86,7 @@ TEST(TileRepeats, PartsThatLeaveTheirBracketsAreRead) {
     compare("polygons",
             reference::grammar_of("axiom: CDCDCDCD\nderivation length: 1\nmove: f\nangle factor: 4\nC --> " +
                                   squares + "{F\nD --> +F+F+F+}f\n"));
-    // A part that changes the pen, and then is entered with another.
+    // A part that changes the pen, so that the next one is entered with another pen.
     compare("colours",
             reference::grammar_of("axiom: AAAAAAAA\nderivation length: 1\nmove: f\nangle factor: 4\nA --> " +
                                   squares + ";f\n"));

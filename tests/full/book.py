@@ -24,7 +24,7 @@ def fail(message: str) -> None:
 
 
 def plain(text: str) -> str:
-    """Letters and digits only: lines break and hyphens stand where they may."""
+    """Letters and digits only, because line breaks and hyphens can be anywhere."""
     return re.sub(r"[^\w]|_", "", text.casefold())
 
 
@@ -33,7 +33,7 @@ pages = text.split("\f")[:-1]
 bare = [plain(page) for page in pages]
 documents, patterns = figures.read()
 
-# Each figure on a page of its own document, in order; what is left out in the list at the end, with the reason.
+# Figures are on pages of their documents, in order; the list at the end has those that are left out, with the reason.
 page_of: dict[str, int] = {}
 at = 0
 for document in documents:
@@ -43,7 +43,7 @@ for document in documents:
     for figure in document.figures:
         if figure.left_out:
             if not any(plain(figure.left_out) in page for page in bare[at:]):
-                # Columns of a table are mixed in the text; its words are all there.
+                # The text mixes the columns of a table, but contains all of its words.
                 words = {plain(each) for each in figure.left_out.split()}
                 if not any(all(word in page for word in words) for page in bare[at:]):
                     fail(f"{document.name}: {figure.number} is not in the list of what is left out")
@@ -67,11 +67,11 @@ with pikepdf.open(BOOK) as pdf:
         for link in page.get("/Annots", []):
             target = str(link.get("/Dest", link.get("/A", {}).get("/D", "")))
             if target not in destinations:
-                fail(f"page {number}: a link leads to '{target}', which is nowhere")
+                fail(f"page {number}: a link leads to '{target}', which does not exist")
             links += 1
             if target in page_of and destinations[target] != page_of[target]:
                 fail(f"a link to {target} leads to page {destinations[target]}; the figure is on page {page_of[target]}")
-    # Pictures that are PDF files stand on their pages as forms.
+    # Pictures that are PDF files are form XObjects of their pages.
     objects = (each for page in pdf.pages for _, each in page.resources.get("/XObject", pikepdf.Dictionary()).items())
     forms = len({each.objgen for each in objects if each.Subtype == "/Form"})
     vectors = sum(1 for document in documents for figure in document.figures for each in figure.drawings if not each.is_played
@@ -79,7 +79,7 @@ with pikepdf.open(BOOK) as pdf:
     if forms < vectors:
         fail(f"{forms} drawings are on the pages; the figures have {vectors}")
 
-# The printed numbers of the index are those of pages with the figure.
+# The index prints the numbers of the pages with the figures.
 expected: dict[str, set[int]] = {}
 for document in documents:
     for figure in document.figures:

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# The book of packaging/book.sh: pages, fonts, every figure of its list, contents and index that lead where they say, pictures
-# on their pages; a second build of some figures, elsewhere and on one processor, has the same bytes.
+# Examines the book of packaging/book.sh: pages, fonts, every figure of its list, links, numbers of pages in the index,
+# pictures. Two builds of some figures, one in another folder and on one processor, have the same bytes.
 # usage: tests/full/book.sh PROGRAM [BOOK]
-# BOOK is a book that was made before, and is examined instead of a new one.
+# BOOK is a book that was made before; it is examined instead of a new one.
 set -euo pipefail
 [ $# -ge 1 ] || { echo "usage: tests/full/book.sh PROGRAM [BOOK]" >&2; exit 2; }
 program=$(realpath "$1")
