@@ -187,9 +187,13 @@ public:
     void polygon(std::span<const glm::dvec3> outline, const glm::dvec3& seen, const Corner& like,
                  const Material& material) {
         const std::uint32_t own = next();
+        bool is_seen = false;
         each_of_outline(outline, seen, [&](Sample& sample, float depth) {
-            if (depth > sample.depth) sample = {depth, own};
+            if (!(depth > sample.depth)) return;
+            sample = {depth, own};
+            is_seen = true;
         });
+        if (!is_seen) return;
         facets_.push_back(
             {.at = glm::dvec2(like.at), .normals = {like.normal}, .colours = {like.colour}, .material = material});
     }

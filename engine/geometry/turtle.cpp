@@ -172,12 +172,7 @@ public:
                 next += command.arity;
             }
         }
-        if (!walker_.in_range(state_.place)) {
-            throw WordError(
-                fmt::format("between symbols {} and {} of the word the turtle leaves the range of its "
-                            "coordinates",
-                            first + 1, position_));
-        }
+        check_range(first);
     }
 
     void finish() override {
@@ -203,6 +198,7 @@ public:
     }
     std::int64_t lowest_depth() override { return std::exchange(lowest_depth_, stack_.depth()); }
     void skip_to(const TurtleStand& stand) override {
+        const std::uint64_t first = position_;
         lift();
         if constexpr (requires { state_.place.at.begin(); }) {
             std::copy_n(stand.coordinates.begin(), state_.place.at.size(), state_.place.at.begin());
@@ -210,9 +206,18 @@ public:
         state_.place.heading = stand.heading;
         state_.pen = stand.pen;
         position_ = stand.position;
+        check_range(first);
     }
 
 private:
+    /// @param first  position in the word from which on the place has not been checked
+    void check_range(std::uint64_t first) const {
+        if (walker_.in_range(state_.place)) return;
+        throw WordError(
+            fmt::format("between symbols {} and {} of the word the turtle leaves the range of its coordinates",
+                        first + 1, position_));
+    }
+
     using Place = typename Walker::State;
     struct State {
         Place place;

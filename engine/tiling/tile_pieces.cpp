@@ -28,7 +28,8 @@ struct Cut {
     double along = 0;
 };
 
-/// Pairs sides in opposite directions: each with the first that is free. Cost: linear, if few sides meet at each
+/// Pairs sides in opposite directions: each with the first that is free, after those paired within parts that recur.
+/// The order matters only where tiles overlap, which the vertices show. Cost: linear, if few sides meet at each
 /// point. Memory: 4 bytes a point, 12 for each side that is free at a time.
 class SidePairing {
 public:

@@ -3,15 +3,17 @@
 #include "engine/derivation/levels.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <utility>
 
 namespace sikku {
 
 TileRepeats::TileRepeats(const Grammar& grammar, Turtle& turtle, TileCollector& collector, const Monitor& monitor)
     : symbols_(grammar.symbols().size()), turtle_(turtle), collector_(collector), monitor_(monitor) {
-    constexpr std::int64_t most_levels = 64;
+    constexpr std::int64_t most_levels = 64, most_numbers = std::int64_t{1} << 18;
     const Levels levels(grammar, true);
-    const std::int64_t count = std::min({levels.count(), kept_levels(symbols_), most_levels});
+    const std::int64_t count =
+        std::min({levels.count(), most_numbers / static_cast<std::int64_t>(symbols_ + 1), most_levels});
     for (const SymbolInfo& symbol : grammar.symbols()) {
         polygons_.push_back(symbol.command.action == Action::polygon_end ? 1.0 : 0.0);
         lengths_.push_back(1.0);
@@ -50,10 +52,10 @@ bool TileRepeats::passes_over(Symbol symbol, std::int64_t level) {
     if (!is_worthwhile(symbol, level)) return false;
     const auto here = turtle_.stand();
     if (!here) return false;
-    const Key key{symbol, level, here->heading, here->pen.colour, here->pen.width, here->pen.width_set};
+    const Key key{symbol, level, here->heading, here->pen.colour};
     const auto found = parts_.find(key);
     if (found == parts_.end()) {
-        if (kept_ < most_kept) begin(parts_[key], level, *here);
+        if (kept_ < most_kept && parts_.size() < most_parts) begin(parts_[key], level, *here);
         return false;
     }
     const Part& part = found->second;
@@ -62,6 +64,8 @@ bool TileRepeats::passes_over(Symbol symbol, std::int64_t level) {
     TurtleStand there = part.end;
     for (std::size_t i = 0; i < there.coordinates.size(); ++i) there.coordinates[i] += here->coordinates[i];
     there.position += here->position;
+    there.pen = here->pen;  // tiles have no widths
+    there.pen.colour = part.end.pen.colour;
     turtle_.skip_to(there);
     monitor_.advance(part.end.position);
     return true;
@@ -87,7 +91,10 @@ void TileRepeats::end() {
         kept_ += mark.tiles - mark_.tiles;
     }
     part.end = *here;
-    for (std::size_t i = 0; i < here->coordinates.size(); ++i) part.end.coordinates[i] -= start_.coordinates[i];
+    for (std::size_t i = 0; i < here->coordinates.size(); ++i) {
+        part.end.coordinates[i] -= start_.coordinates[i];
+        if (std::abs(part.end.coordinates[i]) > farthest) return;
+    }
     part.end.position -= start_.position;
     part.is_usable = true;
 }

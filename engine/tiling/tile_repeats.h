@@ -24,7 +24,7 @@ public:
     bool passes_over(Symbol symbol, std::int64_t level) override;
 
 private:
-    using Key = std::tuple<Symbol, std::int64_t, std::uint32_t, int, double, bool>;
+    using Key = std::tuple<Symbol, std::int64_t, std::uint32_t, int>;
     struct Part {
         bool is_usable = false;
         std::optional<std::uint32_t> tiles;  ///< number of their part; none: it only moves the turtle
@@ -37,7 +37,8 @@ private:
 
     static constexpr double least_tiles = 4, most_tiles = 512;       ///< of a part
     static constexpr double least_moves = 64, most_moves = 1 << 16;  ///< symbols of a part without tiles
-    static constexpr std::size_t most_kept = 30'000;
+    static constexpr std::size_t most_kept = 30'000, most_parts = 4'096;
+    static constexpr std::int64_t farthest = std::int64_t{1} << 61;  ///< way of a part: sums stay within 64 bits
 
     std::size_t symbols_;
     Turtle& turtle_;

@@ -211,7 +211,9 @@ public:
                 if (!is_new) continue;
                 const Cyclotomic::Number at = plane_.coordinates(corners[i]);
                 for (std::size_t k = 0; k < plane_.numbers().rank(); ++k) {
-                    part.points.push_back(static_cast<std::int32_t>(at[k] - origin[k]));
+                    const std::int64_t way = at[k] - origin[k];
+                    if (way != static_cast<std::int32_t>(way)) return std::nullopt;
+                    part.points.push_back(static_cast<std::int32_t>(way));
                 }
             }
             part.in_class.push_back(tiles_.in_class[tile]);
@@ -558,8 +560,8 @@ TileSet collect_tiles(const Grammar& grammar, TilePlane& plane, const TileLimits
     const auto watch = [&monitor](std::uint64_t symbols) { monitor.advance(symbols); };
     monitor.expect(expected_symbols(grammar, true));
     DerivationOptions derivation = DerivationOptions::within(limits.nodes, watch);
-    TileRepeats repeats(grammar, *turtle, collector, monitor);
-    if (plane.is_exact()) derivation.pruner = &repeats;
+    std::optional<TileRepeats> repeats;
+    if (plane.is_exact()) derivation.pruner = &repeats.emplace(grammar, *turtle, collector, monitor);
     derive(grammar, *turtle, derivation);
     return tiles;
 }

@@ -77,7 +77,6 @@ def insert_pictures(pdf: pikepdf.Pdf, pictures: list[Picture], places: dict[str,
         page.contents_add(place.encode(), prepend=True)
 
 
-
 def build(output: Path, program: Program, version: str, only: list[str], scratch: Path) -> str:
     documents, patterns = figures.read()
     if only:
@@ -117,12 +116,14 @@ def build(output: Path, program: Program, version: str, only: list[str], scratch
     studio.make_all(pictures, os.cpu_count() or 1)
 
     # Repeated if a picture has moved a text to another page, so that the printed numbers of pages are right.
-    while True:
+    for _ in range(5):
         pages = {name: page for name, (page, _, _) in places.items()}
         document = rendered(book.html(plates, pages), scratch)
         places = places_of(document)
         if all(places[name][0] == page for name, page in pages.items()):
             break
+    else:
+        raise ValueError("the numbers of pages do not settle")
     plain = scratch / "text.pdf"
     document.write_pdf(plain)
     with pikepdf.open(plain) as pdf:

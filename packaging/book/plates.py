@@ -57,6 +57,8 @@ def laid_out(figure: Figure, width: float, height: float, numbers: range, column
     # A picture alone in its row is larger than those in rows of several.
     shares = [1.6 if of_row == 1 and max(rows) > 1 else 1.0 for of_row in rows]
     room = height - GAP * (len(rows) - 1) - label * len(rows)
+    if room <= 0:
+        raise ValueError(f"figure {figure.number}: its text leaves no room for pictures")
     laid, at = [], 0
     for of_row, share in zip(rows, shares):
         wide, tall = (width - GAP * (of_row - 1)) / of_row, room * share / sum(shares)
@@ -165,4 +167,6 @@ class Studio:
             at = options.index("--highlight")
             del options[at : at + 2]
         done = self.program.run("-q", command, self.patterns[drawing.pattern].path, *options)
-        return table_of(done.stdout) if done.returncode == 0 else []
+        if done.returncode != 0:
+            raise ValueError(f"{drawing.pattern}: sikku {command} exits with {done.returncode}: {done.stderr.strip()}")
+        return table_of(done.stdout)

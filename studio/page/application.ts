@@ -9,8 +9,8 @@ const patience = 400; // milliseconds until the status bar shows that the librar
 const fact_seconds = 12; // how long a message stays in the status bar
 
 export class Application implements Studio {
-    help!: Help; // these are set before the first panel is made
-    patterns!: PatternEntry[];
+    help!: Help; // set before the first panel is made
+    patterns: PatternEntry[] = []; // set before all panels but that of the picture
     arrangements: ArrangementEntry[] = [];
     opened: { facts: Opened; work: Work } | null = null;
 

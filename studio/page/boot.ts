@@ -11,21 +11,37 @@ declare global {
 
 const own_text = typeof document === "undefined" ? "" : document.currentScript!.textContent!;
 
+type Unpacked = ArrayBuffer | { failed: string };
+
 function serve(): void {
+    const send = postMessage as (message: Unpacked, transfer?: Transferable[]) => void;
     onmessage = ({ data }: MessageEvent<string>) => {
-        const { buffer } = unpackText(data);
-        (postMessage as (message: ArrayBuffer, transfer: Transferable[]) => void)(buffer, [buffer]);
+        try {
+            const { buffer } = unpackText(data);
+            send(buffer, [buffer]);
+        } catch (error) {
+            send({ failed: String(error) });
+        }
     };
 }
 
 function unpackLibraries(): Promise<ArrayBuffer> {
     return new Promise((resolve, reject) => {
-        const worker = new Worker(URL.createObjectURL(new Blob([own_text], { type: "text/javascript" })));
-        worker.onmessage = ({ data }: MessageEvent<ArrayBuffer>) => {
+        const address = URL.createObjectURL(new Blob([own_text], { type: "text/javascript" }));
+        const worker = new Worker(address);
+        const finish = () => {
             worker.terminate();
-            resolve(data);
+            URL.revokeObjectURL(address);
         };
-        worker.onerror = ({ message }) => reject(new Error(`the worker does not start: ${message}`));
+        worker.onmessage = ({ data }: MessageEvent<Unpacked>) => {
+            finish();
+            if (data instanceof ArrayBuffer) resolve(data);
+            else reject(new Error(`the libraries cannot be unpacked: ${data.failed}`));
+        };
+        worker.onerror = ({ message }) => {
+            finish();
+            reject(new Error(`the worker does not start: ${message ?? "it is blocked"}`));
+        };
         worker.postMessage(packedText("sikku-libraries"));
     });
 }
@@ -60,6 +76,6 @@ async function begin(): Promise<void> {
 if (own_text === "") {
     serve();
 } else {
-    showDraft();
     addEventListener("DOMContentLoaded", () => void begin().catch(fail));
+    showDraft();
 }

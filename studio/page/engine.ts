@@ -1,7 +1,7 @@
 // The libraries in a pool of workers. Requests wait in two lanes. Of the requests with the same key, one runs at a time
 // and only the last one waits, so that a moving slider gets its pictures in order and without a queue.
 import type { Answer, Engine, RequestOptions } from "./context";
-import { RequestFailed } from "./context";
+import { messageOf, RequestFailed } from "./context";
 import { scriptAddress } from "./embedded";
 import type { Failure, Request } from "./protocol";
 
@@ -69,6 +69,12 @@ export class Pool implements Engine {
         this.module = module;
         for (const seat of this.seats) this.begin(seat.worker, module);
         this.next();
+    }
+
+    /// The libraries cannot be started: all requests fail with this cause.
+    fail(error: unknown): void {
+        this.broken = new RequestFailed({ kind: "other", message: `the libraries do not start: ${messageOf(error)}` });
+        this.drop(this.broken, () => true);
     }
 
     request<T>(request: Request, options: RequestOptions = {}): Promise<Answer<T>> {

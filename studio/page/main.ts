@@ -50,6 +50,7 @@ async function main(): Promise<void> {
     const store = new History(first, viewed === null);
     const engine = startWorkers();
     const libraries = globalThis.sikkuLibraries.then((bytes) => WebAssembly.compile(bytes)).then((module) => engine.start(module));
+    libraries.catch((error) => engine.fail(error));
     const application = new Application(engine, store);
     store.onUnsaved(() =>
         application.say(
@@ -102,7 +103,6 @@ async function main(): Promise<void> {
 
 // A page that only shows the work of a link.
 async function showOnly(application: Application, panels: Panels, link: string): Promise<void> {
-    application.patterns = [];
     try {
         await view(application, link, libraryFacts.help);
     } catch (error) {

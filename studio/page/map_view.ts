@@ -119,6 +119,7 @@ export class MapView {
             this.planeName = this.subjects.nameOf("plane", work.pattern, planeOptions(this.studio.help, work.draw));
         }
         if (isOther) this.change();
+        if (work.pattern !== before.pattern) document.getElementById("draft")?.remove();
         if (isAnother(work.pattern, before.pattern)) {
             this.loupe = noLoupe;
             this.problem = "";

@@ -21,6 +21,7 @@ export class Panels {
                 this.studio.say(`One view failed to start: ${String(error)}`, "error");
             }
         }
+        byId("panels").querySelector(":scope > .draft")?.remove(); // the map has failed to start
         this.choose(this.studio.store.work.panel);
     }
 

@@ -55,6 +55,14 @@ test("requests and files wait until the libraries are there", async () => {
     assert.deepEqual((await scale).json, {});
 });
 
+test("if the libraries cannot be started, requests fail with the cause", async () => {
+    const pool = new Pool("", 2);
+    const waiting = pool.request(ask);
+    pool.fail(new Error("damaged"));
+    await assert.rejects(waiting, /do not start: damaged/);
+    await assert.rejects(pool.request(ask), /do not start: damaged/);
+});
+
 test("a worker that does not start is replaced, and its request fails with the cause", async () => {
     const pool = started(2);
     const [first, second] = workers;

@@ -18,7 +18,7 @@
 namespace sikku::tile_repeats_test {
 
 /// Compares the tiles of a word with those of the same word written out, in which no part recurs. Returns the number
-/// of tiles that were moved.
+/// of tiles of parts that were kept or moved.
 std::size_t compare(const std::string& name, const Grammar& grammar) {
     const TilingResult moved = examine_tiling(grammar, {});
     const TilingResult read = examine_tiling(write_out(grammar, DerivationOptions::within(200e6)), {});
@@ -69,10 +69,41 @@ TEST(TileRepeats, MovedTilesEqualThoseRead) {
 
 TEST(TileRepeats, FaultsAreThoseOfTheWholeWord) {
     // Rows of squares: each continues the previous row, lies on its end, or overlaps it by half a square.
+    const std::string keys = "\nderivation length: 5\nmove: f\nangle factor: 4\n";
+    const std::string squares = "\ninterpret:\nA --> {F+F+F+F+}f{F+F+F+F+}f\n";
     for (const std::string way : {"", "|ff|", "|f(0.5)|"}) {
-        compare("squares " + way,
-                reference::grammar_of("axiom: A\nderivation length: 6\nmove: f\nangle factor: 4\nA --> A" + way +
-                                      "A\ninterpret:\nA --> {F+F+F+F+}f{F+F+F+F+}f\n"));
+        const std::size_t between =
+            compare("rows " + way, reference::grammar_of("axiom: A" + way + "A" + keys + "A --> AA" + squares));
+        EXPECT_GT(between, 0U) << way;
+        const std::size_t within =
+            compare("squares " + way, reference::grammar_of("axiom: AA" + keys + "A --> A" + way + "A" + squares));
+        EXPECT_EQ(within > 0, way != "|ff|") << way;  // a part that holds a tile twice is read each time
+    }
+}
+
+/// The places are those of the turtle, however far it goes between tiles.
+TEST(TileRepeats, PartsThatGoFarAreRead) {
+    const std::string squares = "{F+F+F+F+}f{F+F+F+F+}f{F+F+F+F+}f{F+F+F+F+}f";
+    const Grammar far = reference::grammar_of(
+        "axiom: |f(4294967296)|Af(4294967296)ffffA\nderivation length: 1\nmove: f\nangle factor: 4\n"
+        "A --> f(4294967296)" +
+        squares + "|f(4294967296)ffff|\n");
+    const TilingResult found = examine_tiling(far, {});
+    const TilingResult read = examine_tiling(write_out(far, DerivationOptions::within(200e6)), {});
+    EXPECT_FALSE(found.patch.plane.is_exact());
+    EXPECT_EQ(found.patch.tiles.polygons, 8U);
+    EXPECT_EQ(found.examination.regions, read.examination.regions);
+    EXPECT_EQ(found.examination.regions, 2U);
+}
+
+TEST(TileRepeats, SkippedMovesStayInTheRangeOfCoordinates) {
+    for (const std::string steps : {"26", "30"}) {
+        const Grammar grammar = reference::grammar_of("axiom: {F+F+F+F+}fB{F+F+F+F+}\nderivation length: " + steps +
+                                                      "\nmove: f\nangle factor: 4\nB --> BB\ninterpret:\n"
+                                                      "B --> f(274877906944)\n");
+        TilingOptions options;
+        options.limits.nodes = 1e12;
+        EXPECT_THROW(examine_tiling(grammar, options), WordError) << steps;
     }
 }
 
