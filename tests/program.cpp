@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 
 #include <chrono>
@@ -92,6 +93,13 @@ void Child::await_handler(int signal) const {
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(sanitized ? 1000 : 300));
+}
+
+void Child::await_errors() const {
+    struct stat file {};
+    for (int i = 0; i < 12'000 && fstat(errors_, &file) == 0 && file.st_size == 0; ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
 }
 
 Outcome Child::wait() {

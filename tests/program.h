@@ -61,6 +61,8 @@ public:
     void send(int signal) const;
     /// Waits until it has a handler for the signal, and a little longer, so that it is at work.
     void await_handler(int signal) const;
+    /// Waits until it has written to standard error, for a minute at most.
+    void await_errors() const;
     /// Hands over standard input and waits for the end.
     Outcome wait();
 

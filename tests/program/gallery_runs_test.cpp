@@ -28,14 +28,14 @@ TEST_F(GalleryRunsTest, ASecondRunWaitsForTheFirst) {
     const std::vector<std::string> asked = {"gallery", "--file", "gallery.toml", "-o", "out"};
     {
         Child stopped(asked, {.folder = folder.path()});
-        stopped.await_handler(SIGINT);
+        stopped.await_errors();
         stopped.send(SIGINT);
         const Outcome outcome = stopped.wait();
         EXPECT_EQ(outcome.status, 130);
         EXPECT_TRUE(has(outcome.errors, "another run is using 'out/gallery.jsonl'; waiting for it"));
     }
     Child child(asked, {.folder = folder.path()});
-    child.await_handler(SIGTERM);
+    child.await_errors();
     close(held);
     const Outcome outcome = child.wait();
     EXPECT_EQ(outcome.status, 0);
