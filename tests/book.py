@@ -68,7 +68,7 @@ for name, pattern in sorted(patterns.items()):
 # Wrong entries are refused, with the figure and the reason.
 HEAD = '[[document]]\nname = "x"\nshort = "x"\nreference = "x"\nabout = "x"\ncover = "hilbert"\n[[document.figure]]\nnumber = "Figure 1"\n'
 for entry, reason in (
-    ('draw = ["no-such-pattern"]\ncaption = "x"', "Figure 1: there is no pattern 'no-such-pattern'"),
+    ('draw = ["no-such-pattern"]\ncaption = "x"', "Figure 1: unknown pattern 'no-such-pattern'"),
     ('draw = ["hilbert -n 0:3"]\nlabels = ["a"]', "Figure 1: 1 labels for 4 drawings"),
     ('draw = ["hilbert -n 0:3"]\ncolumns = [2, 1]', "Figure 1: 3 places for 4 drawings"),
     ('draw = ["hilbert --fit"]', "'hilbert --fit': unknown option --fit"),

@@ -82,7 +82,7 @@ def build(output: Path, program: Program, version: str, only: list[str], scratch
     if only:
         known = {figure.number for document in documents for figure in document.figures}
         if unknown := [each for each in only if each not in known]:
-            raise ValueError(f"there is no figure '{unknown[0]}'")
+            raise ValueError(f"unknown figure '{unknown[0]}'")
         for document in documents:
             document.figures = [each for each in document.figures if each.number in only]
         documents = [each for each in documents if each.figures]

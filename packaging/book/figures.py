@@ -167,7 +167,7 @@ def read_figure(entry: dict, chapter: str, patterns: dict[str, Pattern]) -> Figu
     systems = entry.get("systems", [each for each in names if not all(d.is_played for d in figure.drawings if d.pattern == each)])
     for name in names + systems:
         if name not in patterns:
-            raise ValueError(f"{figure.number}: there is no pattern '{name}'")
+            raise ValueError(f"{figure.number}: unknown pattern '{name}'")
     figure.systems = systems
     first = patterns[names[0]]
     figure.title = figure.title or first.title

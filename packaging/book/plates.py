@@ -9,7 +9,7 @@ from pathlib import Path
 import midi
 from figures import Drawing, Figure
 from patterns import Pattern
-from program import Program, table_of
+from program import Program, reason_of, table_of
 
 GAP = 2.5  # mm between pictures
 LABEL = 5.0  # mm, a line below a picture
@@ -168,5 +168,5 @@ class Studio:
             del options[at : at + 2]
         done = self.program.run("-q", command, self.patterns[drawing.pattern].path, *options)
         if done.returncode != 0:
-            raise ValueError(f"{drawing.pattern}: sikku {command} exits with {done.returncode}: {done.stderr.strip()}")
+            raise ValueError(f"{drawing.pattern} cannot be drawn: sikku {command}: {reason_of(done)}")
         return table_of(done.stdout)

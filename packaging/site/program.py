@@ -23,9 +23,11 @@ class Program:
     def makes(self, command: str, pattern: Path, output: Path, *options: str) -> str:
         """Makes a file. Returns "", or the reason if it cannot be made."""
         done = self.run("-q", command, pattern, "-o", output, *options)
-        if done.returncode == 0 and output.exists():
-            return ""
-        return done.stderr.strip() or f"exit status {done.returncode}"
+        return "" if done.returncode == 0 and output.exists() else reason_of(done)
+
+
+def reason_of(failed: subprocess.CompletedProcess) -> str:
+    return failed.stderr.strip() or f"exit status {failed.returncode}"
 
 
 def table_of(report: str) -> list[tuple[str, str]]:

@@ -1,6 +1,6 @@
 // The only script that is not compressed in the page: it shows the first picture and unpacks the others. The libraries are
 // unpacked by a worker that runs this script, too.
-import { packedText, scriptAddress, unpackText } from "./embedded";
+import { dataOf, scriptAddress, unpackText } from "./embedded";
 import { hasSavedWork } from "./storage";
 import { troubleOf } from "./trouble";
 
@@ -42,14 +42,14 @@ function unpackLibraries(): Promise<ArrayBuffer> {
             finish();
             reject(new Error(`the worker does not start: ${message ?? "it is blocked"}`));
         };
-        worker.postMessage(packedText("sikku-libraries"));
+        worker.postMessage(dataOf("sikku-libraries"));
     });
 }
 
 // Shows the picture of the first pattern to visitors who come for the first time, until the libraries have drawn it.
 function showDraft(): void {
-    if (hasSavedWork() || location.hash.length > 1 || packedText("sikku-patterns") !== "[]") return;
-    const text = new TextDecoder().decode(unpackText(packedText("sikku-draft")));
+    if (hasSavedWork() || location.hash.length > 1 || dataOf("sikku-patterns") !== "[]") return;
+    const text = new TextDecoder().decode(unpackText(dataOf("sikku-draft")));
     const draft = document.createElement("div");
     draft.id = draft.className = "draft";
     draft.append(new DOMParser().parseFromString(text, "image/svg+xml").documentElement);
@@ -64,7 +64,7 @@ function fail(error: unknown): void {
     document.getElementById("panels")!.replaceChildren(note);
 }
 
-async function begin(): Promise<void> {
+function begin(): void {
     globalThis.sikkuLibraries = unpackLibraries();
     globalThis.sikkuLibraries.catch(() => {}); // the script reports it
     const script = document.createElement("script");
@@ -76,6 +76,12 @@ async function begin(): Promise<void> {
 if (own_text === "") {
     serve();
 } else {
-    addEventListener("DOMContentLoaded", () => void begin().catch(fail));
+    addEventListener("DOMContentLoaded", () => {
+        try {
+            begin();
+        } catch (error) {
+            fail(error);
+        }
+    });
     showDraft();
 }

@@ -15,12 +15,12 @@ function decode(text: string, start: number, size: number): Uint8Array<ArrayBuff
     return new Uint8Array(words.buffer, 0, size);
 }
 
-/// The compressed contents of an element.
-export function packedText(id: string): string {
+/// The contents of an element that holds data.
+export function dataOf(id: string): string {
     return document.getElementById(id)!.textContent!.trim();
 }
 
-/// Decompresses what packedText() returns.
+/// Decompresses what dataOf() returns.
 export function unpackText(text: string): Uint8Array<ArrayBuffer> {
     const [packed, whole] = text.split(" ", 2).map(Number) as [number, number];
     return unpackLzma(decode(text, text.lastIndexOf(" ") + 1, packed), whole);
@@ -28,5 +28,5 @@ export function unpackText(text: string): Uint8Array<ArrayBuffer> {
 
 /// Decompresses a script, and returns a Blob address for it.
 export function scriptAddress(id: string): string {
-    return URL.createObjectURL(new Blob([unpackText(packedText(id))], { type: "text/javascript" }));
+    return URL.createObjectURL(new Blob([unpackText(dataOf(id))], { type: "text/javascript" }));
 }

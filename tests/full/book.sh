@@ -40,13 +40,8 @@ mkdir other
 cmp few.pdf other/again.pdf
 echo "book: two builds of $few have the same bytes ($(cat facts))"
 
-refused() {
-    local expected=$1
-    shift
-    if "$@" > refusal 2>&1; then echo "not refused: $*"; exit 1; fi
-    grep -q -e "$expected" refusal || { cat refusal; echo "expected: $expected"; exit 1; }
-}
+. "$here/refused.sh"
 refused "is missing; ./demo builds it" "$root/packaging/book.sh" x.pdf ./nothing
-refused "there is no figure 'Figure 0'" "$root/packaging/book.sh" x.pdf "$program" --only "Figure 0"
+refused "unknown figure 'Figure 0'" "$root/packaging/book.sh" x.pdf "$program" --only "Figure 0"
 refused "cannot be drawn" "$root/packaging/book.sh" x.pdf /bin/false --only "Figure 2.4"
 [ ! -e x.pdf ]

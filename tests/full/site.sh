@@ -59,12 +59,7 @@ diff -r a/site second || { echo "a second build has other bytes"; exit 1; }
 echo "site: two builds have the same bytes"
 
 # Bad input: a message names its place, and no file is replaced.
-refused() {
-    local expected=$1
-    shift
-    if "$@" > refusal 2>&1; then echo "not refused: $*"; exit 1; fi
-    grep -q -e "$expected" refusal || { cat refusal; echo "expected: $expected"; exit 1; }
-}
+. "$here/refused.sh"
 mkdir mine && echo kept > mine/file
 refused "is not a site" site mine --patterns a/patterns
 [ "$(cat mine/file)" = kept ]
