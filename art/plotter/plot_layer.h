@@ -43,9 +43,7 @@ inline std::size_t plot_table_size(std::size_t entries) {
 /// An empty hash table with room for this many entries.
 inline std::vector<std::uint32_t> plot_table(std::size_t entries) {
     std::vector<std::uint32_t> table;
-    table.reserve(plot_table_size(entries));
-    use_large_pages(table);
-    table.resize(plot_table_size(entries), PlotSegment::none);
+    resize_in_large_pages(table, plot_table_size(entries), PlotSegment::none);
     return table;
 }
 

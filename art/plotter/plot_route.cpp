@@ -34,9 +34,7 @@ class NearLists {
 public:
     NearLists() = default;
     NearLists(std::size_t points, std::size_t most) : most_(most) {
-        near_.reserve(points * most);
-        use_large_pages(near_);
-        near_.resize(points * most, no_end);
+        resize_in_large_pages(near_, points * most, no_end);
     }
     std::span<const std::uint32_t> of(std::uint32_t point) const {
         return std::span(near_).subspan(point * most_, most_);

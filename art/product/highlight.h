@@ -19,7 +19,8 @@ struct LitDrawing {
 /// or those of one symbol in the first colour; everything else is pale. Edges of polygons keep their colour. Works
 /// with every system of words: tables, contexts, parameters, random choices, cuts, `interpret:`. Memory: two
 /// successive words, and 4 bytes for the origin of each symbol.
-/// @throws SettingError if there is no such step or symbol; BudgetError if the words exceed the budget; WordError
+/// @throws SettingError if the step or the symbol does not exist; BudgetError if the words exceed the budget;
+/// WordError
 LitDrawing lit_drawing(const Grammar& grammar, const Style& style, const Highlight& highlight, double budget,
                        const Monitor& monitor);
 

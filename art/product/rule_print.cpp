@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace sikku {
 namespace {
@@ -95,18 +96,19 @@ private:
         model.style = found.style;
         model.may_be_empty = true;
         const SheetCell arrow = arrow_cell();
+        std::vector<DrawnExtent> frames;
         glm::dvec2 largest_cell(0);
         for (const RuleFigure& figure : found.figures) {
-            if (figure.is_cell) largest_cell = glm::max(largest_cell, common_extent(figure, model).box.size());
+            frames.push_back(common_extent(figure, model));
+            if (figure.is_cell) largest_cell = glm::max(largest_cell, frames.back().box.size());
         }
         for (std::size_t i = 0; i < found.figures.size(); ++i) {
             const double left = room.left + static_cast<double>(i % places.columns) * places.across;
             const auto row = i / places.columns;
             const double top = room.top + static_cast<double>(row) * places.down;
             const RuleFigure& figure = found.figures[i];
-            DrawnExtent frame = common_extent(figure, model);
-            if (figure.is_cell) frame.box.high = frame.box.low + largest_cell;
-            add_production(figure, frame, model, arrow, places, left, top);
+            if (figure.is_cell) frames[i].box.high = frames[i].box.low + largest_cell;
+            add_production(figure, frames[i], model, arrow, places, left, top);
         }
     }
 

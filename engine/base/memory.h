@@ -20,6 +20,13 @@ template <class Element>
 void use_large_pages(std::vector<Element>& list) {
     use_large_pages(list.data(), list.capacity() * sizeof(Element));
 }
+/// Resizes a vector in large pages.
+template <class Element>
+void resize_in_large_pages(std::vector<Element>& list, std::size_t size, const Element& value = {}) {
+    list.reserve(size);
+    use_large_pages(list);
+    list.resize(size, value);
+}
 
 /// Parses a size in bytes: `1G`, `512M`, `2GiB`, `500MB`, any case; k, M, G and T are powers of 1024. Nullopt for
 /// anything else, and for 0.

@@ -84,9 +84,7 @@ void pair_rest(TilePieces& pieces, std::size_t points) {
 /// The twins of edges, or no_number. Within recurring parts they are known.
 std::vector<std::uint32_t> pair_edges(const TileSet& tiles, std::size_t points) {
     std::vector<std::uint32_t> twin;
-    twin.reserve(tiles.corner.size());
-    use_large_pages(twin);
-    twin.resize(tiles.corner.size(), no_number);
+    resize_in_large_pages(twin, tiles.corner.size(), no_number);
     for (const auto& [begin, part] : tiles.placed) {
         const std::vector<std::uint32_t>& partner = tiles.parts[part].partner;
         for (std::size_t i = 0; i < partner.size(); ++i) {
@@ -254,9 +252,7 @@ void list_sides(TilePieces& pieces, std::size_t points) {
     for (const std::uint32_t point : pieces.from) ++pieces.out_begin[point];
     // The ends of the lists, which are filled from there.
     for (std::size_t i = 1; i <= points; ++i) pieces.out_begin[i] += pieces.out_begin[i - 1];
-    pieces.out.reserve(pieces.from.size());
-    use_large_pages(pieces.out);
-    pieces.out.resize(pieces.from.size());
+    resize_in_large_pages(pieces.out, pieces.from.size());
     for (std::uint32_t side = pieces.sides(); side-- > 0;) pieces.out[--pieces.out_begin[pieces.from[side]]] = side;
     for_each_index(points / part_size + 1, [&](std::size_t part) {
         for (std::size_t i = part * part_size; i < std::min(points, (part + 1) * part_size); ++i) {
@@ -341,9 +337,7 @@ TilePieces cut_into_pieces(TilePlane& plane, const TileSet& tiles, CutSearch sea
     if (search == CutSearch::unpaired && cuts.empty()) {
         pieces.twin = std::move(twin);
     } else {
-        pieces.twin.reserve(pieces.sides());
-        use_large_pages(pieces.twin);
-        pieces.twin.resize(pieces.sides(), no_number);
+        resize_in_large_pages(pieces.twin, pieces.sides(), no_number);
         if (search == CutSearch::unpaired) take_twins(pieces, twin, cuts);
         std::vector<std::uint32_t>().swap(twin);  // frees the memory
         pair_rest(pieces, plane.points());
